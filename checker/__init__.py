@@ -13,10 +13,9 @@ derivation.py (derived expressions), roots.py, register.py; shown.py prints the 
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from . import drift, heteroclinic, measure, motion, orbit, register, run
-from .document import FORMAT, Unreadable, digest, file_name, read
+from .document import FORMAT, Data, Unreadable, digest, file_name, read
 from .interval import Rejected
 
 __all__ = [
@@ -63,12 +62,12 @@ class Verdict:
     refuted: bool = False
 
 
-def statement(data: dict[str, Any]) -> str:
+def statement(data: Data) -> str:
     """The sentence that must be the "statement" of a certificate with these numbers."""
     return KINDS[data["kind"]].statement(data)
 
 
-def check(data: dict[str, Any]) -> Verdict:
+def check(data: Data) -> Verdict:
     """The verdict on a certificate; raises Rejected, with a reason in one sentence, unless its statement is proved."""
     kind = data.get("kind") if isinstance(data, dict) else None
     if not isinstance(kind, str) or data.get("format") != FORMAT:

@@ -7,7 +7,7 @@ import runpy
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -88,7 +88,7 @@ def _refused(file: str, why: Exception) -> int:
     return status
 
 
-def _say(*lines: str, to: Any = None) -> None:
+def _say(*lines: str, to: TextIO | None = None) -> None:
     """Prints lines, with escapes for unprintable characters: a file's name can neither add a line nor hide one."""
     print(*("".join(x if x.isprintable() else repr(x)[1:-1] for x in line) for line in lines), sep="\n", file=to)
 

@@ -8,18 +8,18 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from functools import reduce
 from operator import mul
-from typing import Any
 
+from .document import Data
 from .interval import Rejected
 from .polynomial import Work
-from .trees import divisors, names_in, plain, value
+from .trees import Tree, divisors, names_in, plain, value
 from .words import Number, Term, Words
 
 
 class Algebra:
     """An algebra: letters for matrices, parameters for numbers, rules for products of two letters, and transposes."""
 
-    def __init__(self, data: Mapping[str, Any], work: Work):
+    def __init__(self, data: Data, work: Work):
         self.data, self.work, self.letters, self.parameters = data, work, set(data["letters"]), data["parameters"]
         self.none = (0,) * len(self.parameters)
         self.divisors: set[str] = set()  # parameters that were divided by, even if they have cancelled
@@ -38,13 +38,13 @@ class Algebra:
         """A number times powers of the parameters."""
         return Words({(exponents, ()): c}, self.work)
 
-    def read(self, tree: Any, names: Mapping[str, Words]) -> Words:
+    def read(self, tree: Tree, names: Mapping[str, Words]) -> Words:
         """The sum of words of a tree."""
         self.divisors |= self.among(names[name] for name in divisors(tree) & names.keys())
         found: Words = value(tree, names, lambda x: self.scalar(self.none, plain(x)))
         return found
 
-    def is_value(self, tree: Any, words: Words) -> bool:
+    def is_value(self, tree: Tree, words: Words) -> bool:
         """Whether a tree in the names of the algebra equals a sum of words, modulo the rules."""
         return not self.total([words - self.read(tree, self.names)]).terms
 
@@ -144,11 +144,11 @@ class Algebra:
         return self.scalar(self.none, sum(signs)) * self.word(*least)
 
 
-def about(data: Mapping[str, Any], names: Iterable[str], where: str) -> tuple[list[Any], list[Any]]:
+def about(data: Data, names: Iterable[str], where: str) -> tuple[list[tuple[str, str, Tree]], list[tuple[str, Tree]]]:
     """The rules and transposes among the named letters; raises Rejected if one of them involves other letters, too."""
     named = {*data["letters"]}.intersection(names)
 
-    def is_about(*trees: Any) -> bool:
+    def is_about(*trees: Tree) -> bool:
         others = (names_in([0, *trees]) & {*data["letters"]}) - named
         known = names_in([0, *trees]) & named
         if known and others:

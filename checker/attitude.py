@@ -14,40 +14,39 @@ axes.  From Bω = K - r, where Dγγᵀ turns, too, ω changes by 2ω × ξ + 2B
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from .linear import cross, dot, plus
 from .rolling import Rolling, newest
-from .taylor import Model
+from .taylor import Model, Numbers
 
 
 @dataclass(frozen=True)
 class Turning(Rolling):
     """The continuous ball with quaternions for states.  half: ½k.  rotor: ½r, or empty."""
 
-    half: Sequence[Any]
-    rotor: Sequence[Any] = ()
+    half: Numbers
+    rotor: Numbers = ()
 
-    def vectors(self, a: Sequence[Any]) -> list[Any]:
+    def vectors(self, a: Numbers) -> Numbers:
         """½K and γ, times |a|²."""
         rows = rotation(a)
         K = [dot(column, self.half) for column in zip(*rows, strict=True)]
         return [*K, *rows[2]]
 
-    def spin(self, state: Sequence[Any]) -> list[Any]:
+    def spin(self, state: Numbers) -> Numbers:
         """½ω."""
         square, vectors = dot(state, state), self.vectors(state)
         if self.rotor:
-            vectors[:3] = [x - square * y for x, y in zip(vectors[:3], self.rotor, strict=True)]
+            vectors = [*(x - square * y for x, y in zip(vectors[:3], self.rotor, strict=True)), *vectors[3:]]
         by = 1 / square
         return [x * by for x in super().spin(vectors)]
 
-    def turned(self, state: Sequence[Any], w: Sequence[Any]) -> list[Any]:
+    def turned(self, state: Numbers, w: Numbers) -> Numbers:
         """a∘(0, w)."""
         q0, q = state[0], state[1:]
         return [-dot(q, w), *plus([x * q0 for x in w], cross(q, w))]
 
-    def stretch(self, state: Sequence[Any]) -> list[list[Any]]:
+    def stretch(self, state: Numbers) -> list[Numbers]:
         """The columns of B⁻¹C."""
         vectors, w, I = self.vectors(state), self.spin(state), self.inertia
         gamma = vectors[3:]
@@ -73,7 +72,7 @@ class Turning(Rolling):
         return a
 
 
-def rotation(a: Sequence[Any]) -> list[list[Any]]:
+def rotation(a: Numbers) -> Sequence[Numbers]:
     """The rows of |a|²R."""
     p = {(i, j): a[i] * a[j] for i in range(4) for j in range(i, 4)}
     rest = p[0, 0] - p[1, 1] - p[2, 2] - p[3, 3]

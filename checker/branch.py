@@ -20,10 +20,9 @@ the properties of the map on the circle that measure.py uses.
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
 from .circle import Circle, direction
-from .document import check_rounded, decimals
+from .document import Data, check_rounded, decimals
 from .interval import Interval, Rejected
 from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times, transposed, units
 from .step import Pair, gibbs_vector, jacobian, residual, source, turned
@@ -41,7 +40,7 @@ class Branch:
     boxes: list[Vector]
 
     @classmethod
-    def proved(cls, circle: Circle, data: Any, digits: int) -> "Branch":
+    def proved(cls, circle: Circle, data: Data, digits: int) -> "Branch":
         """The branch of a file; raises Rejected unless it is proved to exist, uniquely, over the whole circle."""
         half, odd = divmod(data["arcs"], 2)
         if odd:

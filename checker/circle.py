@@ -2,9 +2,8 @@
 
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
-from .document import check_work, scale
+from .document import Data, check_work, scale
 from .interval import Interval, Rejected
 from .linear import Vector, times
 from .step import Ball, Pair
@@ -18,7 +17,7 @@ def direction(t: Fraction) -> tuple[Fraction, Fraction]:
 class Circle:
     """The circle of a certificate for every parameter of its box; raises Rejected unless the level is such a circle."""
 
-    def __init__(self, data: dict[str, Any]):
+    def __init__(self, data: Data):
         radius = Fraction(data["radius"])
         if radius < 0:
             raise Rejected("the radius must not be negative")

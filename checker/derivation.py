@@ -24,11 +24,12 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from .algebra import Algebra, about, having
+from .document import Data
 from .form import NUMBER, check_shape, names, once, text
 from .interval import Rejected
 from .matrices import Quotients, check_places, entry, placed
 from .polynomial import Quotient
-from .trees import check_known, check_name, check_tree, names_in
+from .trees import Tree, check_known, check_name, check_tree, names_in
 from .words import Matrix, Words
 
 #: The most definitions of a derivation.
@@ -80,7 +81,7 @@ def check_definition(data: Any, where: str) -> None:
     check_shape(data, head | {"of": of, "by": BY[operation]} | value, where)
 
 
-def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotients]) -> dict[str, Defined]:
+def values(data: Sequence[Data], algebras: Sequence[Algebra | Quotients]) -> dict[str, Defined]:
     """The value of each name of a derivation; raises Rejected for an invalid step."""
     if len(data) > MOST_DEFINITIONS:
         raise Rejected(f"the derivation has more than {MOST_DEFINITIONS} definitions")
@@ -105,12 +106,12 @@ def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotient
     return found
 
 
-def valued(data: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def valued(data: Sequence[Data]) -> Data:
     """The value trees by name, for the names that have one."""
     return {one["name"]: one["value"] for one in data if "value" in one}
 
 
-def check_use(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> None:
+def check_use(data: Sequence[Data], trees: Sequence[Tree]) -> None:
     """Raises Rejected if a definition is used neither in these trees nor, indirectly, by a definition that is."""
     known = used(data, trees)
     for one in data:
@@ -118,7 +119,7 @@ def check_use(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> None:
             raise Rejected(f"the definition of {one['name']} is not used")
 
 
-def used(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> set[str]:
+def used(data: Sequence[Data], trees: Sequence[Tree]) -> set[str]:
     """The names in trees and, recursively, in the definitions of these names."""
     found = names_in([0, *trees])
     for one in reversed(data):
@@ -129,14 +130,14 @@ def used(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> set[str]:
     return found
 
 
-def named(trees: Sequence[Any], algebra: Algebra, defined: Mapping[str, Defined], where: str) -> dict[str, Words]:
+def named(trees: Sequence[Tree], algebra: Algebra, defined: Mapping[str, Defined], where: str) -> dict[str, Words]:
     """The names of an algebra and the defined names in the trees, each with its words in that algebra."""
     used = ((name, defined[name]) for name in sorted(names_in([0, *trees]) & defined.keys()))
     brought = {name: _brought(of, algebra, where) for name, of in used if isinstance(of.value, Words)}
     return {**algebra.names, **brought}
 
 
-def entries(trees: Sequence[Any], defined: Mapping[str, Defined]) -> dict[str, Quotient]:
+def entries(trees: Sequence[Tree], defined: Mapping[str, Defined]) -> dict[str, Quotient]:
     """The values of the defined names in some trees that are entries of matrices."""
     used = ((name, defined[name].value) for name in names_in([0, *trees]) & defined.keys())
     return {name: value for name, value in used if isinstance(value, Quotient)}
@@ -156,7 +157,7 @@ def _brought(of: Defined, algebra: Algebra, where: str) -> Words:
     return _image(of, algebra, algebra.names)
 
 
-def _made(one: dict[str, Any], of: Defined, algebra: Algebra, found: Mapping[str, Defined], where: str) -> Words:
+def _made(one: Data, of: Defined, algebra: Algebra, found: Mapping[str, Defined], where: str) -> Words:
     """The words that a definition makes from words."""
     operation, by = one["operation"], one["by"]
     if operation == "replaced":
@@ -181,7 +182,7 @@ def _made(one: dict[str, Any], of: Defined, algebra: Algebra, found: Mapping[str
 
 
 def _places(
-    by: Sequence[tuple[str, Any]], known: Collection[str], algebra: Algebra, found: Mapping[str, Defined], where: str
+    by: Sequence[tuple[str, Tree]], known: Collection[str], algebra: Algebra, found: Mapping[str, Defined], where: str
 ) -> dict[str, Words]:
     """The substitutes for known names, or their rates."""
     check_known([name for name, _ in by], known, where)
@@ -212,7 +213,7 @@ def _respects_as_rates(algebra: Algebra, rates: Mapping[str, Words], where: str)
     """Raises Rejected unless the rates are compatible with the rules and transposes among their letters."""
     rules, transposes = about(algebra.data, rates, where)
 
-    def rate(tree: Any) -> Words:
+    def rate(tree: Tree) -> Words:
         return algebra.rate(algebra.read(tree, algebra.names), rates)
 
     _check_equal(

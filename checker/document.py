@@ -4,13 +4,15 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from .interval import Interval, Rejected
 
+#: An object of JSON; the form of its kind says of what types its values are.
+Data = Mapping[str, Any]
 FORMAT = "chapsym-certificate/1"
 #: The most digits and steps of a certificate, for an acceptable running time.
 MOST_DIGITS, MOST_STEPS = 2_000, 1_000
@@ -32,7 +34,7 @@ class Unreadable(Exception):
     """The file has no JSON object; the message gives the reason in one sentence."""
 
 
-def read(path: str | Path) -> dict[str, Any]:
+def read(path: str | Path) -> Data:
     """The object of a JSON file; raises Unreadable, or Rejected if an object has a name twice."""
     try:
         if Path(os.path.realpath(path)).is_fifo():  # a read of a named pipe would block; `<(...)` has no name
@@ -51,20 +53,20 @@ def read(path: str | Path) -> dict[str, Any]:
     return data
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _once(pairs: list[tuple[str, object]]) -> Data:
     data = dict(pairs)
     if len(data) < len(pairs):
         raise Rejected("a name stands twice in one object")
     return data
 
 
-def digest(data: dict[str, Any]) -> str:
+def digest(data: Data) -> str:
     """The SHA-256 of the object without "digest", as JSON with sorted names, without spaces, in ASCII."""
     rest = {name: value for name, value in data.items() if name != "digest"}
     return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode("ascii")).hexdigest()
 
 
-def check_names(data: Any, names: Iterable[str], where: str) -> None:
+def check_names(data: object, names: Iterable[str], where: str) -> None:
     """Raises Rejected unless `data` is an object with exactly these names."""
     if not isinstance(data, dict):
         raise Rejected(f"{where} must be an object with the names {', '.join(names)}")
@@ -74,17 +76,17 @@ def check_names(data: Any, names: Iterable[str], where: str) -> None:
         )
 
 
-def count(value: Any, least: int, most: int, where: str) -> int:
+def count(value: object, least: int, most: int, where: str) -> int:
     """An integer from `least` to `most`."""
     if type(value) is not int or not least <= value <= most:
         raise Rejected(f"{where} must be an integer from {least} to {most}")
     return value
 
 
-def exact(text: Any, where: str) -> Fraction:
+def exact(text: object, where: str) -> Fraction:
     """A rational number such as 12/5, -3, 0.25 or 1e-90."""
     fits = isinstance(text, str) and len(text) <= MOST_DIGITS + 10 and _EXACT.fullmatch(text)
-    if not fits or (text[0] == "-" and not re.split("[e/]", text)[0].strip("-0.")):
+    if not isinstance(text, str) or not fits or (text[0] == "-" and not re.split("[e/]", text)[0].strip("-0.")):
         raise Rejected(f"{where} must be a number in quotes such as 12/5, -3, 0.25 or 1e-90")
     try:
         return Fraction(text)
@@ -100,7 +102,7 @@ def decimal(text: Any, digits: int, where: str) -> Fraction:
     return Fraction(text)
 
 
-def sized(data: Any, size: int, where: str) -> None:
+def sized(data: object, size: int, where: str) -> None:
     """Raises Rejected unless this is a list of that length."""
     if not isinstance(data, list) or len(data) != size:
         raise Rejected(f"{where} must be a list of {size}")

@@ -27,13 +27,13 @@ from functools import partial
 from math import ceil
 from typing import Any
 
-from .document import exact
+from .document import Data, exact
 from .form import HEAD, anything, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector, cross, dot, plus, solve, units
 from .rolling import BITS, Flow, Rolling
 from .step import Ball
-from .taylor import Model, derivatives
+from .taylor import Model, Numbers, derivatives
 
 STATE = ("K1", "K2", "K3", "gamma1", "gamma2", "gamma3")
 SYMMETRIES = ([1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1])
@@ -47,7 +47,7 @@ FORM = HEAD | {
 INTEGRALS = {"energy": "the integral of X3(H)", "density": "the integral of the divergence of X3"}
 
 
-def statement(data: dict[str, Any]) -> str:
+def statement(data: Data) -> str:
     """The theorem, with the numbers of the file."""
     ball, start = data["ball"], data["start"]
     return (
@@ -58,7 +58,7 @@ def statement(data: dict[str, Any]) -> str:
     )
 
 
-def check_form(data: dict[str, Any]) -> None:
+def check_form(data: Data) -> None:
     """Raises Rejected unless the file has all its numbers, in their form."""
     check_shape(data, FORM)
     for name in ("radius", "time", "window"):
@@ -73,12 +73,12 @@ def check_form(data: dict[str, Any]) -> None:
 class Modified(Rolling):
     """The continuous ball, and the leading correction X₃ of the map."""
 
-    def turning(self, state: Sequence[Any]) -> list[Any]:
+    def turning(self, state: Numbers) -> Numbers:
         """12ω₃."""
         gamma = state[3:]
         eased, lift = self.inverse(gamma)
 
-        def solved(v: Sequence[Any]) -> list[Any]:
+        def solved(v: Numbers) -> Numbers:
             return self.solved(v, gamma, eased, lift)
 
         w = solved(state[:3])
@@ -90,7 +90,7 @@ class Modified(Rolling):
         square, aside, pull = dot(w, w) * 2, cross(w, a), solved(force)
         return [x * square + y - z - 3 * f for x, y, z, f in zip(w, second, aside, pull, strict=True)]
 
-    def densities(self, state: Sequence[Any]) -> tuple[Any, Any]:
+    def densities(self, state: Numbers) -> Numbers:
         """12X₃(H) and 12 times the divergence of X₃."""
         K, gamma = state[:3], state[3:]
         along = [[x for v in (K, gamma) for x in _crossed(v, j)] for j in range(3)]
@@ -103,7 +103,7 @@ class Modified(Rolling):
         return dot(turns, cross(w, self.carried(w))), spread
 
 
-def _crossed(v: Sequence[Any], j: int) -> list[Any]:
+def _crossed(v: Numbers, j: int) -> Numbers:
     """v × e_j."""
     found: list[Any] = [0] * 3
     found[j - 2], found[j - 1] = v[j - 1], -v[j - 2]
@@ -113,7 +113,7 @@ def _crossed(v: Sequence[Any], j: int) -> list[Any]:
 class Orbit:
     """The starts of a certificate, and their returns to the section."""
 
-    def __init__(self, data: dict[str, Any]):
+    def __init__(self, data: Data):
         J, D, self.bits = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"]), data["bits"]
         Ball.within(J, D, Fraction(0), self.bits)
         momentum, gamma = ([Fraction(x) for x in data["start"][name]] for name in ("momentum", "gamma"))
@@ -178,7 +178,7 @@ class Orbit:
     def check_told_apart(self, box: Vector) -> None:
         """Raises Rejected unless the integrals and the two components are injective on a box."""
 
-        def told(x: Sequence[Any]) -> list[Any]:
+        def told(x: Numbers) -> Numbers:
             K, gamma = x[:3], x[3:]
             return [dot(gamma, gamma), dot(K, K), dot(K, gamma), self.ball.energy(x), x[self.section], x[self.along]]
 
@@ -188,7 +188,7 @@ class Orbit:
             raise Rejected("the integrals and the two components are not proved to tell states apart") from None
 
 
-def check(data: dict[str, Any]) -> dict[str, str]:
+def check(data: Data) -> dict[str, str]:
     """Raises Rejected unless the orbit is closed and its integrals are as stated; returns the proved numbers."""
     orbit, misses = Orbit(data), []
     for end, stated in zip((-1, 1), data["misses"], strict=True):

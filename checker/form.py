@@ -55,7 +55,7 @@ def check_shape(data: Any, shape: Any, where: str = "") -> None:
         shape(data, where)
 
 
-def anything(data: Any, where: str) -> None:
+def anything(data: object, where: str) -> None:
     """The shape of data that are checked elsewhere."""
 
 
@@ -63,20 +63,20 @@ def anything(data: Any, where: str) -> None:
 HEAD = dict.fromkeys(("format", "kind", "statement", "digest"), anything)
 
 
-def many(data: Any, where: str) -> list[Any]:
+def many(data: object, where: str) -> list[Any]:
     """The data; raises Rejected unless this is a list, not too long."""
     if not isinstance(data, list) or len(data) > MOST:
         raise Rejected(f"{where} must be a list of at most {MOST}")
     return data
 
 
-def text(data: Any, where: str) -> None:
+def text(data: object, where: str) -> None:
     """Raises Rejected unless this is a non-empty text of one line, not too long."""
     if not isinstance(data, str) or not 0 < len(data) <= MOST_LETTERS or not data.isprintable():
         raise Rejected(f"{where} must be a text of at most {MOST_LETTERS} letters, in one line")
 
 
-def chosen(data: Any, among: Sequence[str], where: str) -> None:
+def chosen(data: object, among: Sequence[str], where: str) -> None:
     """Raises Rejected unless this is one of some words."""
     if not isinstance(data, str) or data not in among:
         raise Rejected(f"{where} must be one of: {', '.join(among)}")
@@ -91,7 +91,7 @@ def names(data: Any, where: str) -> None:
     once(data, where)
 
 
-def once(data: Collection[Any], where: str) -> None:
+def once(data: Collection[object], where: str) -> None:
     """Raises Rejected if an item occurs twice."""
     if len(set(data)) < len(data):
         raise Rejected(f"{where} has a name twice")

@@ -22,9 +22,8 @@ from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from .trees import names_in
+from .trees import Tree, names_in
 
-Tree = Any
 #: The rank, 0, 1 or 2, and a tree, a vector or a matrix of trees.
 Value = tuple[int, Any]
 #: The names of a root and a trace, and the token for words; no certificate can contain them.

@@ -19,9 +19,8 @@ that is positive almost everywhere.
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
-from .document import DIGITS, check_rounded, check_work, decimal, exact, scale
+from .document import DIGITS, Data, check_rounded, check_work, decimal, exact, scale
 from .form import HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import newton
@@ -36,7 +35,7 @@ FORM = HEAD | {
 }  # fmt: skip
 
 
-def statement(data: dict[str, Any]) -> str:
+def statement(data: Data) -> str:
     """The theorem, with the numbers of the file."""
     ball, starts = data["ball"], [one["start"] for one in data["orbits"]]
     return (
@@ -48,7 +47,7 @@ def statement(data: dict[str, Any]) -> str:
     )
 
 
-def check_form(data: dict[str, Any]) -> None:
+def check_form(data: Data) -> None:
     """Raises Rejected unless the file has all its numbers, in their form."""
     check_shape(data, FORM)
     for one in data["orbits"]:
@@ -69,7 +68,7 @@ class Separatrix:
     slope: Interval
 
     @classmethod
-    def of(cls, data: dict[str, Any]) -> "Separatrix":
+    def of(cls, data: Data) -> "Separatrix":
         """The map of a file; raises Rejected unless its hypotheses hold in the whole box."""
         radius = Fraction(data["radius"])
         if radius < 0:
@@ -143,7 +142,7 @@ class Separatrix:
         return bound / (x * (1 - 1 / (least * least)))
 
 
-def check(data: dict[str, Any]) -> dict[str, str]:
+def check(data: Data) -> dict[str, str]:
     """Raises Rejected unless the two e^Δ prove the statement; returns them."""
     digits, found = data["digits"], []
     separatrix = Separatrix.of(data)

@@ -32,7 +32,7 @@ from typing import Any, NamedTuple
 
 from . import derivation, letters
 from .derivation import check_pairs
-from .document import Unreadable, read
+from .document import Data, Unreadable, read
 from .form import anything, check_shape, text
 from .interval import Rejected
 from .letters import Letter
@@ -46,7 +46,7 @@ MANIFEST = "manifest.json"
 MOST_LETTERS, MOST_LINES = 200_000, 5_000
 LINE = range(MOST_LINES + 1)
 #: Certificates by name: the id of the claim, and the digest.
-Certificates = Mapping[str, Mapping[str, Any]]
+Certificates = Mapping[str, Data]
 
 
 def check(row: Any, written: str, certificates: Certificates, where: str) -> list[str]:
@@ -110,7 +110,7 @@ class Difference(NamedTuple):
     entry: int
 
 
-def carried(row: dict[str, Any], written: str, certificates: Certificates, where: str) -> Carried:
+def carried(row: Data, written: str, certificates: Certificates, where: str) -> Carried:
     """The results of a text and the entries of its carriers; raises Rejected if a form is invalid."""
     function = straight_line(written, where)
     check_shape(row["carriers"], [check_carrier_form], f"a carrier of {where}")
@@ -145,7 +145,7 @@ def differences(one: Carried, where: str) -> list[Difference]:
     ]
 
 
-def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> None:
+def check_point(one: Carried, i: int, point: Data, where: str) -> None:
     """Raises Rejected unless the relations of a carrier hold at a point, without division by 0.
 
     Otherwise an equality by the relations might be vacuous: no point satisfies them, or all values are 0/0.
@@ -161,7 +161,7 @@ def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> N
         raise Rejected(f"{where}, or what carries it, divides by 0 at its point")
 
 
-def _check_head(head: str, carriers: Sequence[Mapping[str, Any]], where: str) -> None:
+def _check_head(head: str, carriers: Sequence[Data], where: str) -> None:
     """Raises Rejected if the docstring of a text names a certificate that does not carry it."""
     named = set(re.findall(r"[Cc]ertificate of (\S+): sha256 (\w+)", head))
     proved = re.search(r"Proved by: (.*?)\.  ", head)
@@ -171,12 +171,12 @@ def _check_head(head: str, carriers: Sequence[Mapping[str, Any]], where: str) ->
         raise Rejected(f"{where} says that it is proved by what does not carry it")
 
 
-def _certificates(carrier: Mapping[str, Any]) -> list[tuple[str, str]]:
+def _certificates(carrier: Data) -> list[tuple[str, str]]:
     found = [(carrier["claim"], carrier["certificate"])]
     return found + [pair for step, by in carrier["steps"] if step == "solved" for pair in _certificates(by)]
 
 
-def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any]]:
+def check_folder(folder: Path, certificates: Certificates) -> list[Data]:
     """The verdict on every kernel of a generated package: its file, and either its inputs and statements or the reason.
 
     Files that the manifest does not list as kernels are ignored; a kernel without a file is rejected.
@@ -188,7 +188,7 @@ def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any
     except (Unreadable, Rejected, KeyError):
         reason = f"{folder / MANIFEST} does not list kernels"
         return [{"file": str(folder), "accepted": False, "reason": reason}]
-    found: list[dict[str, Any]] = []
+    found: list[Data] = []
     for name, row in rows.items():
         file = folder / f"{name}.py"
         try:
@@ -230,7 +230,7 @@ def moves(step: str, by: Any) -> Sequence[Any]:
     return [by] if step == "at" else by if step == "along" else []
 
 
-def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> tuple[Any, Mapping[str, Any]]:
+def _statement(carrier: Data, certificates: Certificates, where: str) -> tuple[Data, Data]:
     """The statement that a carrier names, and its certificate; it must be unique, proved and non-trivial."""
     claim, said = carrier["claim"], carrier["statement"]
     data = certificates.get(f"{claim} {carrier['certificate']}")
@@ -249,7 +249,7 @@ def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: st
     return statement, data
 
 
-def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> set[str]:
+def _names(carrier: Data, certificates: Certificates, where: str) -> set[str]:
     """The variables that a carrier needs; raises Rejected if a step replaces or moves a name that is no variable.
 
     Such a step would have no effect.
@@ -271,7 +271,7 @@ def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -
 
 
 def entries(
-    carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str, adjoined: Sequence[Letter] = ()
+    carrier: Data, certificates: Certificates, ring: Ring, where: str, adjoined: Sequence[Letter] = ()
 ) -> tuple[list[Quotient], list[Quotient], list[Quotient]]:
     """The entries of a carrier in the variables of the ring, the relations that hold for them, and its divisors."""
     statement, data = _statement(carrier, certificates, where)

@@ -5,21 +5,20 @@ relative to the folder of the manifest.  It lists all JSON files there except it
 """
 
 from pathlib import Path
-from typing import Any
 
-from .document import FORMAT, check_names, digest, file_name
+from .document import FORMAT, Data, check_names, digest, file_name
 from .interval import Rejected
 
 KIND = "manifest"
 
 
-def made(names: dict[str, str]) -> dict[str, Any]:
+def made(names: dict[str, str]) -> Data:
     """The manifest of certificates; `names`: their names, by path."""
     data = {"format": FORMAT, "kind": KIND, "files": dict(sorted(names.items()))}
     return data | {"digest": digest(data)}
 
 
-def listed(data: Any, folder: Path) -> dict[Path, str]:
+def listed(data: Data, folder: Path) -> dict[Path, str]:
     """The files of a manifest and their certificates' names; raises Rejected if the folder has other files."""
     check_names(data, ("format", "kind", "files", "digest"), "the manifest")
     names = data["files"]

@@ -13,10 +13,11 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .algebra import Algebra, about
+from .document import Data
 from .form import anything, check_rows, check_shape, names, sized
 from .interval import Rejected
 from .polynomial import Polynomial, Quotient, Ring
-from .trees import check_known, check_name, check_tree, value
+from .trees import Tree, check_known, check_name, check_tree, value
 from .words import Matrix
 
 
@@ -27,16 +28,16 @@ class Quotients(NamedTuple):
     names: Mapping[str, Quotient]
     relations: Sequence[Quotient]
 
-    def read(self, tree: Any, more: Mapping[str, Quotient] | None = None) -> Quotient:
+    def read(self, tree: Tree, more: Mapping[str, Quotient] | None = None) -> Quotient:
         """The quotient of a tree."""
         found: Quotient = value(tree, {**self.names, **(more or {})}, self.ring.number)
         return found
 
-    def is_value(self, tree: Any, of: Quotient) -> bool:
+    def is_value(self, tree: Tree, of: Quotient) -> bool:
         """Whether a tree in the variables equals a quotient, without use of the relations."""
         return not (of - self.read(tree)).numerator.terms
 
-    def vanishes(self, numerator: Polynomial, cofactors: Sequence[Any], where: str) -> bool:
+    def vanishes(self, numerator: Polynomial, cofactors: Sequence[Tree], where: str) -> bool:
         """Whether a numerator is Σ cofactor · relation."""
         sized(cofactors, len(self.relations), f"the cofactors of {where}")
         made = self.ring.number(Fraction(0))
@@ -47,7 +48,7 @@ class Quotients(NamedTuple):
         return numerator.times(made.scale).terms == made.numerator.terms
 
 
-def quotients(data: Mapping[str, Any], ring: Ring) -> Quotients:
+def quotients(data: Data, ring: Ring) -> Quotients:
     """The quotient ring of an algebra."""
     names = ring.names()
     return Quotients(ring, names, [value(tree, names, ring.number) for tree in data["relations"]])
@@ -59,7 +60,7 @@ def check_places(data: Any, where: str) -> None:
     names([name for name, _ in data[0]], where)
 
 
-def placed(tree: Any, algebra: Algebra, into: Quotients, by: Sequence[Any], where: str) -> Matrix:
+def placed(tree: Tree, algebra: Algebra, into: Quotients, by: Sequence[Any], where: str) -> Matrix:
     """The matrix of a tree of words at these places, which are proved to satisfy the rules."""
     check_known([name for name, _ in by[0]], algebra.names, where)
     point = dict[str, Any]()
@@ -93,7 +94,7 @@ def _check_rules(
 ) -> None:
     """Raises Rejected unless the places satisfy the rules and transposes among their letters."""
 
-    def beyond(matrix: Matrix, claimed: Any) -> list[Polynomial]:
+    def beyond(matrix: Matrix, claimed: Tree) -> list[Polynomial]:
         less = matrix - value(claimed, point, into.ring.number)
         return [x.numerator for row in less.rows for x in row]
 

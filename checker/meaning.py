@@ -9,6 +9,7 @@ from typing import Any
 from . import derivation
 from .algebra import Algebra
 from .derivation import Defined
+from .document import Data
 from .form import check_rows, check_shape
 from .formulas import (
     ROOT,
@@ -58,14 +59,14 @@ def check_form(data: Any, names: Collection[str]) -> None:
         raise Rejected(f"the glossary has {''.join(min(powers))}, the power of another symbol")
 
 
-def read(data: Mapping[str, Any]) -> tuple[int, int]:
+def read(data: Data) -> tuple[int, int]:
     """The number of parts of the formulas of a claim without words, and the number with words."""
     formulas = [data["printed"], data["corrected"] or ""] if data["glossary"] else []
     counts = [WORDS in part for formula in formulas for part in parts(formula)]
     return counts.count(False), counts.count(True)
 
 
-def check(data: Mapping[str, Any], among: "Sequence[Comparer]") -> dict[str, int]:
+def check(data: Data, among: "Sequence[Comparer]") -> dict[str, int]:
     """Raises Rejected unless the formulas of a claim, where they are read, agree with what is decided.
 
     Each part without words is a decided item of its role, or an identity by the glossary alone; no two parts are the
@@ -95,7 +96,7 @@ def check(data: Mapping[str, Any], among: "Sequence[Comparer]") -> dict[str, int
     return {"true by the glossary alone": alone, "said by words of a formula": left}
 
 
-def said(role: str, data: Mapping[str, Any], among: "Sequence[Comparer]") -> tuple[list[Any], set[int], int]:
+def said(role: str, data: Data, among: "Sequence[Comparer]") -> tuple[list[Any], set[int], int]:
     """The decided items of a role, the indices of those that its formula states, and the number of identities."""
     decided = [one for name in DECIDED for one in data[name] if one["role"] == role]
     found, alone, before = set[int](), 0, list[Sequence[str]]()
@@ -119,7 +120,7 @@ def said(role: str, data: Mapping[str, Any], among: "Sequence[Comparer]") -> tup
 DECIDED = ("statements", "comparisons", "counts", "zeros", "rests", "sentences")
 
 
-def is_false(one: Mapping[str, Any]) -> bool:
+def is_false(one: Data) -> bool:
     """Whether an item, or a sentence, says that the printed formula is false."""
     sentence = (
         one.keys() <= {"role", "text", "words"} and one["role"] == "printed" and one["text"].startswith("false: ")
@@ -127,9 +128,7 @@ def is_false(one: Mapping[str, Any]) -> bool:
     return "refuted" in one or one.get("holds") is False or sentence
 
 
-def _part(
-    part: Sequence[str], role: str, decided: Sequence[Any], data: Mapping[str, Any], among: "Sequence[Comparer]"
-) -> set[int]:
+def _part(part: Sequence[str], role: str, decided: Sequence[Data], data: Data, among: "Sequence[Comparer]") -> set[int]:
     """The indices of the decided items that a part states, in a single algebra or in none; else raises Rejected."""
     why = ""
     stated = {i: one for i, one in enumerate(decided) if "left" in one}
@@ -146,7 +145,7 @@ def _part(
     raise Rejected(f"the {role} formula {''.join(part):.80} is not read: {why}")
 
 
-def _compared(part: Sequence[str], among: Mapping[int, Any], data: Mapping[str, Any]) -> set[int]:
+def _compared(part: Sequence[str], among: Mapping[int, Data], data: Data) -> set[int]:
     """The comparisons and counts that are the relations of a part, with the same trees."""
     said = [[kind, left, right] for kind, (_, left), (_, right) in relations(part, Reader(data["glossary"]))]
     found = {i for i, one in among.items() if one["relations"] == said}
@@ -155,9 +154,7 @@ def _compared(part: Sequence[str], among: Mapping[int, Any], data: Mapping[str, 
     return found
 
 
-def _read(
-    part: Sequence[str], among: Mapping[int, Any], data: Mapping[str, Any], kind: int, of: "Comparer"
-) -> set[int]:
+def _read(part: Sequence[str], among: Mapping[int, Data], data: Data, kind: int, of: "Comparer") -> set[int]:
     """The statements that the equations of a part state, in one algebra; raises NotRead if one states none."""
     algebra = data["algebras"][kind]
     reader = Reader(
@@ -175,7 +172,7 @@ def _read(
     return found
 
 
-def _transposes(algebra: Mapping[str, Any]) -> dict[str, Tree] | None:
+def _transposes(algebra: Data) -> dict[str, Tree] | None:
     """The transpose of each name of an algebra of words; parameters are numbers."""
     if algebra["kind"] == "quotient":
         return None
@@ -183,7 +180,7 @@ def _transposes(algebra: Mapping[str, Any]) -> dict[str, Tree] | None:
 
 
 def _statements(
-    pair: tuple[Value, Value], among: Mapping[int, Any], of: "Comparer", reader: Reader, data: Mapping[str, Any]
+    pair: tuple[Value, Value], among: Mapping[int, Data], of: "Comparer", reader: Reader, data: Data
 ) -> set[int]:
     """The statements that an equation states, entry by entry; raises NotRead if none and it is no identity.
 
@@ -231,7 +228,7 @@ def _statements(
     return found
 
 
-def _saying(sides: Sequence[tuple[Tree, Tree]], among: Mapping[int, Any], of: "Comparer") -> set[int]:
+def _saying(sides: Sequence[tuple[Tree, Tree]], among: Mapping[int, Data], of: "Comparer") -> set[int]:
     """The statements with the same differences; if these are 0, also before the derived names are expanded."""
     said, made = of.differences(sides), of.differences(sides, folded=True)
     found = {i for i, one in among.items() if of.is_said(said, one)}
@@ -250,7 +247,7 @@ def _vanishing(zeros: list[Tree], reader: Reader) -> list[list[Tree]]:
     return found
 
 
-def _is_nothing(zeros: list[Tree], one: Mapping[str, Any], examples: Sequence[Mapping[str, Any]]) -> bool:
+def _is_nothing(zeros: list[Tree], one: Data, examples: Sequence[Data]) -> bool:
     """Whether the value of the symbol 0 vanishes at the counterexample of a statement, if it has only numbers."""
     if "refuted" not in one:
         return True
@@ -296,16 +293,16 @@ class Comparer:
         found = [algebra.total([algebra.read(a, of) - algebra.read(b, of)]) for a, b in sides]
         return [self._settled(x) for x in found], []
 
-    def stated(self, one: Mapping[str, Any], side: str = "", folded: bool = False) -> Differences:
+    def stated(self, one: Data, side: str = "", folded: bool = False) -> Differences:
         """The differences of a statement, or of one of its sides and 0."""
         sides = [(x, 0) for x in one[side]] if side else list(zip(one["left"], one["right"], strict=True))
         return self.differences(sides, one.get("definitions", ()), folded)
 
-    def is_said(self, said: Differences, one: Mapping[str, Any], folded: bool = False) -> bool:
+    def is_said(self, said: Differences, one: Data, folded: bool = False) -> bool:
         """Whether differences are equivalent to those of a statement."""
         return self.alike(said, self.stated(one, folded=folded))
 
-    def is_side(self, said: Differences, one: Mapping[str, Any]) -> bool:
+    def is_side(self, said: Differences, one: Data) -> bool:
         """Whether differences are equivalent to a side of a statement."""
         return any(self.alike(said, self.stated(one, side)) for side in ("left", "right"))
 
@@ -345,9 +342,7 @@ class _InRing(Comparer):
         return all(proportional(_without(a, said[1]), _without(b, [*decided[1], *said[1]])) for a, b in pairs)
 
 
-def comparers(
-    data: Mapping[str, Any], algebras: Sequence[Algebra | Quotients], made: Mapping[str, Defined]
-) -> list[Comparer]:
+def comparers(data: Data, algebras: Sequence[Algebra | Quotients], made: Mapping[str, Defined]) -> list[Comparer]:
     """A comparer of equations for each algebra."""
     own = [{one["name"] for one in data["derivation"] if one["algebra"] == i} for i in range(len(algebras))]
     return [

@@ -28,11 +28,10 @@ invariant density of G on the sphere, or near the circle, would give such a meas
 
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
 from .branch import MOST_ARCS, Branch
 from .circle import Circle
-from .document import DIGITS, STEPS, check_rounded, count, decimal, decimals, exact, sized
+from .document import DIGITS, STEPS, Data, check_rounded, count, decimal, decimals, exact, sized
 from .form import HEAD, anything, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector
@@ -49,7 +48,7 @@ FORM = HEAD | {
 ZEROS = {"a": Fraction(1), "b": Fraction(0)}
 
 
-def statement(data: dict[str, Any]) -> str:
+def statement(data: Data) -> str:
     """The theorem, with the numbers of the file."""
     ball, axes = data["ball"], data["axes"]
     branch = ""
@@ -64,7 +63,7 @@ def statement(data: dict[str, Any]) -> str:
     )
 
 
-def check_form(data: dict[str, Any]) -> None:
+def check_form(data: Data) -> None:
     """Raises Rejected unless the file has all its numbers, in their form."""
     check_shape(data, FORM)
     if sorted(data["axes"]) != [1, 2, 3]:
@@ -75,7 +74,7 @@ def check_form(data: dict[str, Any]) -> None:
         tangent(given["start"])
 
 
-def branch_of(circle: Circle, data: dict[str, Any]) -> Branch | None:
+def branch_of(circle: Circle, data: Data) -> Branch | None:
     """The branch of the file, proved over the circle; None if the bound proves the small branch."""
     if "branch" in data:
         return Branch.proved(circle, data["branch"], data["digits"])
@@ -83,7 +82,7 @@ def branch_of(circle: Circle, data: dict[str, Any]) -> Branch | None:
     return None
 
 
-def orbit(circle: Circle, branch: Branch | None, start: Vector, steps: list[Any], digits: int) -> list[Vector]:
+def orbit(circle: Circle, branch: Branch | None, start: Vector, steps: list[Data], digits: int) -> list[Vector]:
     """γ after 0, 1, … steps; raises Rejected unless the Gibbs vectors and γ of the file are these, rounded."""
     gammas = [start]
     for number, given in enumerate(steps, 1):
@@ -98,7 +97,7 @@ def orbit(circle: Circle, branch: Branch | None, start: Vector, steps: list[Any]
     return gammas
 
 
-def tangent(start: Any) -> Fraction:
+def tangent(start: object) -> Fraction:
     """t = tan ½φ of a start: "a" for γ_a = 0, "b" for γ_b = 0, or a rational number."""
     if isinstance(start, str) and start in ZEROS:
         return ZEROS[start]
@@ -116,7 +115,7 @@ def half_turns(sines: list[Interval]) -> int:
     return sum(before != after for before, after in pairwise(signs))
 
 
-def check(data: dict[str, Any]) -> dict[str, str]:
+def check(data: Data) -> dict[str, str]:
     """Raises Rejected unless the two orbits prove the statement; returns the displacements and the number of steps."""
     digits, q = data["digits"], data["steps"]
     turns = count(data["half_turns"], 1, q, "half_turns")

@@ -17,10 +17,10 @@ from fractions import Fraction
 from functools import partial
 from itertools import pairwise
 from math import ceil
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from .attitude import Turning, rotation
-from .document import DIGITS, exact
+from .document import DIGITS, Data, exact
 from .form import HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector, dot
@@ -37,7 +37,7 @@ FORM = HEAD | {
 }  # fmt: skip
 
 
-def statement(data: dict[str, Any]) -> str:
+def statement(data: Data) -> str:
     """The theorem, with the numbers of the file."""
     ball, frames = data["ball"], data["frames"]
     rolls = f", radius = {ball['radius']}" if "radius" in ball else ""
@@ -52,7 +52,7 @@ def statement(data: dict[str, Any]) -> str:
     )
 
 
-def check_form(data: dict[str, Any]) -> None:
+def check_form(data: Data) -> None:
     """Raises Rejected unless the file has all its numbers, in their form, and radii as small as `digits` says."""
     rolls = isinstance(data.get("ball"), dict) and "radius" in data["ball"]
     parts = {name: (PAIR,) * n for name, n in PARTS.items() if rolls or name != "contact"}
@@ -121,7 +121,7 @@ class Piece(NamedTuple):
 class Motion:
     """The motion of a certificate, in units (powers of 2) with the ball and ω about 1; lengths in radii."""
 
-    def __init__(self, data: dict[str, Any]):
+    def __init__(self, data: Data):
         J, D, bits = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"]), data["bits"]
         (a, off), (K, wide) = (zip(*_fractions(data["start"][name]), strict=True) for name in ("attitude", "momentum"))
         moments = [sum(J) - x for x in J]
@@ -182,7 +182,7 @@ class Motion:
         return found | {"contact": place} if place else found
 
 
-def check(data: dict[str, Any]) -> dict[str, str]:
+def check(data: Data) -> dict[str, str]:
     """Raises Rejected unless every number of every frame is proved; returns the last frame."""
     motion, frames = Motion(data), data["frames"]
     for frame, found in zip(frames, motion.frames([Fraction(x["time"]) for x in frames]), strict=True):

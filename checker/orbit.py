@@ -18,9 +18,8 @@ so dF = 0 there on M: to first order F depends on the momentum integrals alone.
 """
 
 from fractions import Fraction
-from typing import Any
 
-from .document import DIGITS, STEPS, check_rounded, check_work, decimal, decimals, exact, scale, sized
+from .document import DIGITS, STEPS, Data, check_rounded, check_work, decimal, decimals, exact, scale, sized
 from .form import HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus, solve, times, transposed, units
@@ -38,7 +37,7 @@ FORM = HEAD | {
 }  # fmt: skip
 
 
-def statement(data: dict[str, Any]) -> str:
+def statement(data: Data) -> str:
     """The theorem, with the numbers of the file."""
     size, height = (data["integrals"][name] for name in INTEGRALS)
     the, within = ("every", f", every number within {data['radius']},") if "radius" in data else ("the", "")
@@ -51,7 +50,7 @@ def statement(data: dict[str, Any]) -> str:
     )
 
 
-def check_form(data: dict[str, Any]) -> None:
+def check_form(data: Data) -> None:
     """Raises Rejected unless the file has all its numbers, in their form."""
     check_shape(data, FORM)
     if exact(data.get("radius", "0"), "radius") < 0:
@@ -61,7 +60,7 @@ def check_form(data: dict[str, Any]) -> None:
 class Search:
     """The equations of the periodic orbit and their derivatives, in intervals."""
 
-    def __init__(self, data: dict[str, Any]):
+    def __init__(self, data: Data):
         self.digits, q = data["digits"], data["steps"]
         sized(data["orbit"], q, "orbit")
         J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
@@ -147,7 +146,7 @@ def _flat(v: Pair) -> Vector:
     return [*v[0], *v[1]]
 
 
-def check(data: dict[str, Any]) -> dict[str, str]:
+def check(data: Data) -> dict[str, str]:
     """Raises Rejected unless the orbit exists and its derivative is as stated; returns the proved numbers."""
     search = Search(data)
     digits = search.digits

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from typing import Any
 
 from .interval import Rejected
 from .linear import dot
@@ -15,7 +14,7 @@ from .trees import bounded, rational
 MOST_ROWS = 4
 
 
-def number_at(x: Quotient, point: Mapping[str, Any], where: str) -> Fraction:
+def number_at(x: Quotient, point: Mapping[str, Fraction], where: str) -> Fraction:
     """The value of a rational function at a point; raises Rejected at a pole, or if a variable has no value."""
     ring = x.numerator.ring
 

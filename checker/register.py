@@ -44,12 +44,13 @@ from typing import Any
 
 from . import derivation, meaning, roots, zeros
 from .algebra import Algebra, about
+from .document import Data
 from .form import HEAD, MOST, NUMBER, anything, check_rows, check_shape, names, once, sized, text, within
 from .formulas import ROOT
 from .interval import Rejected
 from .matrices import Quotients, quotients
 from .polynomial import Polynomial, Ring, Work
-from .trees import check_known, check_name, check_tree, names_in, rational, size, value
+from .trees import Tree, check_known, check_name, check_tree, names_in, rational, size, value
 from .words import Matrix, same, trace
 
 #: The id of a claim.
@@ -66,7 +67,7 @@ Value = Fraction | Matrix
 COMPARED = ("<", "<=", "=", "!=")
 
 
-def statement(data: dict[str, Any]) -> str:
+def statement(data: Data) -> str:
     """The numbers of checked items of each kind, and of unchecked sentences."""
     proved = [one for one in data["statements"] if "refuted" not in one]
     words = sum(data["algebras"][one["algebra"]]["kind"] != "quotient" for one in proved)
@@ -98,13 +99,13 @@ class Undecided(Rejected):
     """The statements decide nothing: the only possible verdict is `open`."""
 
 
-def said(data: dict[str, Any], *without: str) -> list[dict[str, Any]]:
+def said(data: Data, *without: str) -> list[Data]:
     """All decided items, except those of some parts."""
     parts = ("statements", "comparisons", "counts", "zeros")
     return [one for name in parts if name not in without for one in data[name]]
 
 
-def check_verdict(data: dict[str, Any]) -> None:
+def check_verdict(data: Data) -> None:
     """Raises Rejected unless the verdict follows from the decided items and the roles of the sentences."""
     decided = [*said(data), *data["rests"], *data["sentences"]]
     roles = {one["role"] for one in decided}
@@ -125,7 +126,7 @@ def check_verdict(data: dict[str, Any]) -> None:
         raise Rejected("a correction is given where none is decided, or none where one is")
 
 
-def check_corrected(data: Any, where: str) -> None:
+def check_corrected(data: object, where: str) -> None:
     """Raises Rejected unless this is a text or None."""
     if data is not None:
         text(data, where)
@@ -144,7 +145,7 @@ def check_algebra(data: Any, where: str) -> None:
         once(pairs, where)
 
 
-def names_of(algebra: Mapping[str, Any]) -> list[str]:
+def names_of(algebra: Data) -> list[str]:
     """The names of an algebra."""
     return algebra["variables"] if algebra["kind"] == "quotient" else [*algebra["letters"], *algebra["parameters"]]
 
@@ -200,7 +201,7 @@ FORM = HEAD | {
 }
 
 
-def check_form(data: dict[str, Any]) -> None:
+def check_form(data: Data) -> None:
     """Raises Rejected unless every part is present, in its form, with known names only."""
     with suppress(RecursionError):  # reported later
         if len(json.dumps(data)) > MOST_OF_ALL:
@@ -231,7 +232,7 @@ def check_form(data: dict[str, Any]) -> None:
             check_kinds(algebra, point)
 
 
-def check_numbers(data: dict[str, Any]) -> None:
+def check_numbers(data: Data) -> None:
     """Raises Rejected if an index is out of range, or a counterexample has an index twice."""
     for part in ("derivation", "statements", "comparisons", "counts", "zeros"):
         for i, one in enumerate(data[part]):
@@ -245,7 +246,7 @@ def check_numbers(data: dict[str, Any]) -> None:
                 within(number, data["statements"], f"counterexample {i}")
 
 
-def check_statement(one: dict[str, Any], algebra: Mapping[str, Any], made: Collection[str], where: str) -> None:
+def check_statement(one: Data, algebra: Data, made: Collection[str], where: str) -> None:
     """Raises Rejected unless a statement has the keys that its algebra needs, and defines no name twice."""
     proved, quotient = "refuted" not in one, algebra["kind"] == "quotient"
     if ("point" in one) is not proved or ("cofactors" in one) is not (proved and quotient):
@@ -256,19 +257,19 @@ def check_statement(one: dict[str, Any], algebra: Mapping[str, Any], made: Colle
     once([*own, *{*made, *names_of(algebra)}], f"{where}, which defines what has a meaning,")
 
 
-def check_kinds(algebra: Mapping[str, Any], point: Mapping[str, Any]) -> None:
+def check_kinds(algebra: Data, point: Data) -> None:
     """Raises Rejected if a letter of an algebra is a number at a point, or another name is a matrix."""
     for name in point.keys() & names_of(algebra):
         if isinstance(point[name], list) is not (name in algebra.get("letters", ())):
             raise Rejected(f"a point has a matrix where a number must stand, or a number for a matrix: {name}")
 
 
-def equations(data: Mapping[str, Any]) -> list[Any]:
+def equations(data: Data) -> list[Data]:
     """The statements, and the hypotheses of counterexamples."""
     return [*data["statements"], *(hypothesis for one in data["counterexamples"] for hypothesis in one["hypotheses"])]
 
 
-def check(data: dict[str, Any]) -> dict[str, str]:
+def check(data: Data) -> dict[str, str]:
     """Raises Rejected unless every statement is proved and every counterexample valid; returns the counts."""
     check_verdict(data)
     work = Work()
@@ -327,7 +328,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     return {name: str(number) for name, number in (counted | formulas).items() if number}
 
 
-def read(data: Mapping[str, Any], work: Work) -> tuple[list[Algebra | Quotients], list[meaning.Comparer]]:
+def read(data: Data, work: Work) -> tuple[list[Algebra | Quotients], list[meaning.Comparer]]:
     """The algebras of a certificate, and a comparer of equations for each."""
     algebras = [
         quotients(one, Ring([*one["variables"], ROOT], work)) if one["kind"] == "quotient" else Algebra(one, work)
@@ -336,11 +337,11 @@ def read(data: Mapping[str, Any], work: Work) -> tuple[list[Algebra | Quotients]
     return algebras, meaning.comparers(data, algebras, derivation.values(data["derivation"], algebras))
 
 
-def evaluations(data: dict[str, Any]) -> int:
+def evaluations(data: Data) -> int:
     """The number of parts of trees evaluated at points, including the trees of derived names."""
     values = {name: size(tree) for name, tree in derivation.valued(data["derivation"]).items()}
 
-    def parts(one: Mapping[str, Any]) -> int:
+    def parts(one: Data) -> int:
         trees = [*one["left"], *one["right"], *(tree for _, tree in one.get("definitions", ()))]
         return size(trees) + sum(values[name] for name in names_in([0, *trees]) & values.keys())
 
@@ -363,7 +364,7 @@ def check_identity(numerators: Sequence[Polynomial], cofactors: Sequence[Any], r
     return all(any(meaning.proportional(a, x.numerator) for x in ring.relations) for a in numerators)
 
 
-def entries(data: dict[str, Any]) -> dict[str, Value]:
+def entries(data: Data) -> dict[str, Value]:
     """The values of a point, by name."""
     return {
         name: Matrix([[Fraction(x) for x in row] for row in entry]) if isinstance(entry, list) else Fraction(entry)
@@ -371,7 +372,7 @@ def entries(data: dict[str, Any]) -> dict[str, Value]:
     }
 
 
-def at(tree: Any, point: Mapping[str, Value], values: Mapping[str, Any], where: str) -> Value:
+def at(tree: Tree, point: Mapping[str, Value], values: Mapping[str, Tree], where: str) -> Value:
     """The value of a tree at a point; `values`: the trees of derived names."""
     try:
         made = {name: value(values[name], point, Fraction) for name in names_in(tree) & values.keys()}
@@ -381,13 +382,7 @@ def at(tree: Any, point: Mapping[str, Value], values: Mapping[str, Any], where: 
     return found
 
 
-def holds(
-    one: dict[str, Any],
-    algebra: Mapping[str, Any] | None,
-    point: Mapping[str, Value],
-    values: Mapping[str, Any],
-    where: str,
-) -> bool:
+def holds(one: Data, algebra: Data | None, point: Mapping[str, Value], values: Mapping[str, Tree], where: str) -> bool:
     """Whether left = right at a point, in every entry; in an algebra of traces, whether the traces are equal."""
     point = dict(point)
     for name, tree in one.get("definitions", []):
@@ -397,7 +392,7 @@ def holds(
 
 
 def compared(
-    relations: Sequence[Any], point: Mapping[str, Value], values: Mapping[str, Any], where: str, traces: bool = False
+    relations: Sequence[Any], point: Mapping[str, Value], values: Mapping[str, Tree], where: str, traces: bool = False
 ) -> bool:
     """Whether all relations hold at a point; for matrices only = and != are allowed."""
     found = []
@@ -415,7 +410,7 @@ def compared(
 
 
 def check_hypothesis(
-    one: dict[str, Any], points: Sequence[Mapping[str, Value]], contradicting: Sequence[Mapping[str, Value]], where: str
+    one: Data, points: Sequence[Mapping[str, Value]], contradicting: Sequence[Mapping[str, Value]], where: str
 ) -> None:
     """Raises Rejected unless a hypothesis holds at every point with values for its names, and there is such a point.
 
@@ -432,7 +427,7 @@ def check_hypothesis(
         raise Rejected(f"{where} is violated at a point")
 
 
-def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Any], where: str, whole: bool) -> None:
+def check_hypotheses(algebra: Data, point: Mapping[str, Any], where: str, whole: bool) -> None:
     """Raises Rejected unless an algebra's assumptions hold at a point; without `whole`, those among its letters."""
     if whole and not {*names_of(algebra)} <= point.keys():
         raise Rejected(f"{where} has a point without a value for every variable")
@@ -447,7 +442,7 @@ def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Any], where: s
         raise Rejected(f"{where} has matrices that are not transposes as it is said")
 
 
-def check_satisfiable(algebra: dict[str, Any], points: Sequence[Mapping[str, Value]], where: str) -> None:
+def check_satisfiable(algebra: Data, points: Sequence[Mapping[str, Value]], where: str) -> None:
     """Raises Rejected unless the assumptions of an algebra of words hold at one of the points."""
     for point in points:
         with suppress(Rejected):
@@ -455,7 +450,7 @@ def check_satisfiable(algebra: dict[str, Any], points: Sequence[Mapping[str, Val
     raise Rejected(f"{where} has no point at which its rules hold")
 
 
-def check_counterexample(one: dict[str, Any], i: int, data: dict[str, Any], values: Mapping[str, Any]) -> None:
+def check_counterexample(one: Data, i: int, data: Data, values: Mapping[str, Tree]) -> None:
     """Raises Rejected unless the hypotheses hold, the refuted statements fail, and those it agrees with hold."""
     where, point = f"counterexample {i}", entries(one["point"])
 

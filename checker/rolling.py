@@ -24,7 +24,7 @@ from typing import Any, Self
 from .document import MOST_STEPS
 from .interval import Interval, Rejected
 from .linear import cross, dot, units
-from .taylor import Model, derivatives
+from .taylor import Model, Numbers, derivatives
 
 #: A step is the estimated convergence radius / SHARE; it has PARTS parts with one μ each, in BITS bits; n = 2^ROOTS.
 SHARE, PARTS, BITS, ROOTS = 4, 4, 64, 12
@@ -38,52 +38,52 @@ TUBE = Fraction(1, 2**14)
 class Rolling:
     """The continuous ball, with intervals, models, or duals of these; a state is one list of K and γ."""
 
-    inertia: Sequence[Any]
+    inertia: Numbers
     D: Any
-    slowness: Sequence[Any]
+    slowness: Numbers
 
     @classmethod
     def of(cls, inertia: Sequence[Fraction], D: Fraction, number: Any, *rest: Any) -> Self:
         """The ball with its moments and D converted from fractions by `number`."""
         return cls([number(x) for x in inertia], number(D), [number(1 / (x + D)) for x in inertia], *rest)
 
-    def inverse(self, gamma: Sequence[Any]) -> tuple[list[Any], Any]:
+    def inverse(self, gamma: Numbers) -> tuple[Numbers, Any]:
         """Λ⁻¹γ and D/⟨γ, IΛ⁻¹γ⟩."""
         eased = self.eased(gamma)
         return eased, 1 / dot(self.carried(gamma), eased) * self.D
 
-    def eased(self, v: Sequence[Any]) -> list[Any]:
+    def eased(self, v: Numbers) -> Numbers:
         """Λ⁻¹v."""
         return [x * s for x, s in zip(v, self.slowness, strict=True)]
 
-    def spin(self, state: Sequence[Any]) -> list[Any]:
+    def spin(self, state: Numbers) -> Numbers:
         """ω."""
         return self.solved(state[:3], state[3:], *self.inverse(state[3:]))
 
-    def solved(self, v: Sequence[Any], gamma: Sequence[Any], eased: Sequence[Any], lift: Any) -> list[Any]:
+    def solved(self, v: Numbers, gamma: Numbers, eased: Numbers, lift: Any) -> Numbers:
         """B⁻¹v."""
         near = self.eased(v)
         share = dot(gamma, near) * lift
         return [x + y * share for x, y in zip(near, eased, strict=True)]
 
-    def turned(self, state: Sequence[Any], w: Sequence[Any]) -> list[Any]:
+    def turned(self, state: Numbers, w: Numbers) -> Numbers:
         """(K × w, γ × w): linear in the state, with an antisymmetric matrix."""
         return [*cross(state[:3], w), *cross(state[3:], w)]
 
-    def field(self, state: Sequence[Any]) -> list[Any]:
+    def field(self, state: Numbers) -> Numbers:
         """(K′, γ′)."""
         return self.turned(state, self.spin(state))
 
-    def stretch(self, state: Sequence[Any]) -> list[list[Any]]:
+    def stretch(self, state: Numbers) -> list[Numbers]:
         """The columns of the derivative of the field without the antisymmetric terms (e_K × ω, e_γ × ω)."""
         spins = derivatives(self.spin, state, units(len(state), state[0]))
         return [self.turned(state, w) for w in zip(*(x.slopes for x in spins), strict=True)]
 
-    def energy(self, state: Sequence[Any]) -> Any:
+    def energy(self, state: Numbers) -> Any:
         """2H."""
         return dot(state[:3], self.spin(state))
 
-    def carried(self, w: Sequence[Any]) -> list[Any]:
+    def carried(self, w: Numbers) -> Numbers:
         """Iw."""
         return [x * i for x, i in zip(w, self.inertia, strict=True)]
 

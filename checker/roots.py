@@ -28,13 +28,13 @@ from math import gcd
 from operator import add, mul
 from typing import Any
 
-from .document import count
+from .document import Data, count
 from .form import check_shape, once, sized
 from .interval import Rejected
 from .linear import dot
 from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
 from .rational import cofactors, determinant
-from .trees import names_in, rational, value
+from .trees import Tree, names_in, rational, value
 
 #: The results of a count: different solutions, and solutions with multiplicity.
 NUMBERS = ("real", "complex", "real_with_multiplicity", "complex_with_multiplicity")
@@ -43,9 +43,7 @@ MOST_UNKNOWNS = 5
 Dense = list[int]
 
 
-def check_form(
-    one: dict[str, Any], algebra: Mapping[str, Any], point: Mapping[str, Any], made: Collection[str], where: str
-) -> None:
+def check_form(one: Data, algebra: Data, point: Data, made: Collection[str], where: str) -> None:
     """Raises Rejected unless the names and sizes of a count are valid; its relations are checked elsewhere."""
     size = len(one["unknowns"])
     count(size, 2, MOST_UNKNOWNS, f"the number of unknowns of {where}")
@@ -59,12 +57,7 @@ def check_form(
 
 
 def solutions(
-    one: dict[str, Any],
-    algebra: dict[str, Any],
-    point: Mapping[str, Any],
-    values: Mapping[str, Any],
-    work: Work,
-    where: str,
+    one: Data, algebra: Data, point: Mapping[str, Any], values: Mapping[str, Tree], work: Work, where: str
 ) -> dict[str, Fraction]:
     """The NUMBERS of a count whose form was checked; raises Rejected unless they are proved."""
     size, trees = len(one["unknowns"]), [*one["equations"], *one["nonzero"]]

@@ -10,9 +10,8 @@ the true state, which is in the box.
 
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
-from .document import STEPS, check_work, exact
+from .document import STEPS, Data, check_work, exact
 from .form import HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector, dot, minus, times
@@ -26,7 +25,7 @@ FORM = HEAD | {
 }  # fmt: skip
 
 
-def statement(data: dict[str, Any]) -> str:
+def statement(data: Data) -> str:
     """The theorem, with the numbers of the file."""
     ball, start, last = data["ball"], data["start"], data["frames"][-1]
     return (
@@ -37,7 +36,7 @@ def statement(data: dict[str, Any]) -> str:
     )
 
 
-def check_form(data: dict[str, Any]) -> None:
+def check_form(data: Data) -> None:
     """Raises Rejected unless the file has all its numbers, in their form, and the frames are in order."""
     check_shape(data, FORM)
     steps = [0, *(frame["step"] for frame in data["frames"])]
@@ -47,7 +46,7 @@ def check_form(data: dict[str, Any]) -> None:
         raise Rejected("the γ of the start is 0, and has no direction")
 
 
-def check(data: dict[str, Any]) -> dict[str, str]:
+def check(data: Data) -> dict[str, str]:
     """Raises Rejected unless each frame is proved to be within its bounds; returns the bounds of the last frame."""
     J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
     K, g = ([Fraction(x) for x in data["start"][name]] for name in STATE)

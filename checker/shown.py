@@ -4,16 +4,18 @@ from collections.abc import Iterator
 from typing import Any
 
 from .derivation import LETTER, LETTERS
+from .document import Data
+from .trees import Tree
 
 
-def formula(tree: Any, inside: str = "+") -> str:
+def formula(tree: Tree, inside: str = "+") -> str:
     """A tree as text; `inside`: the operation around it, which may need brackets."""
     if not isinstance(tree, list):
         text = str(tree)
         return f"({text})" if inside != "+" and (text.startswith("-") or ("/" in text and inside == "^")) else text
     if tree[0] == "^":
-        power = tree[2] if tree[2] > 0 else f"({tree[2]})"
-        text = f"{formula(tree[1], '^')}^{power}"
+        power = str(tree[2])
+        text = f"{formula(tree[1], '^')}^{f'({power})' if power.startswith('-') else power}"
         return f"({text})" if inside == "^" else text
     if tree[0] == "*":
         text = "·".join(formula(part, "*") for part in (tree[2:] if tree[1] == -1 else tree[1:]))
@@ -24,7 +26,7 @@ def formula(tree: Any, inside: str = "+") -> str:
     return f"({text})" if level < {"+": 0, "*": 1, "^": 2}[inside] else text
 
 
-def definition(one: dict[str, Any]) -> str:
+def definition(one: Data) -> str:
     """A step of a derivation, as text."""
     operation, of, by = one["operation"], one["of"], one["by"]
     if operation == "written":
@@ -49,7 +51,7 @@ def _place(place: Any) -> str:
     return formula(place)
 
 
-def assumed(algebra: dict[str, Any]) -> str:
+def assumed(algebra: Data) -> str:
     """The assumptions of an algebra, as text: its relations, or its rules and transposes."""
     if algebra["kind"] == "quotient":
         return ", ".join(f"{formula(relation)} = 0" for relation in algebra["relations"])
@@ -57,7 +59,7 @@ def assumed(algebra: dict[str, Any]) -> str:
     return ", ".join([f"{a}·{b} = {formula(image)}" for a, b, image in algebra["rules"]] + transposes)
 
 
-def lines(data: dict[str, Any], parts: bool = True) -> Iterator[str]:
+def lines(data: Data, parts: bool = True) -> Iterator[str]:
     """Every premise, step, statement and counterexample of an accepted certificate; `parts`: definitions, too."""
     for i, algebra in enumerate(data["algebras"]):
         yield f"algebra {i} ({algebra['kind']}): {assumed(algebra) or 'nothing is assumed'}"

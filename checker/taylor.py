@@ -15,6 +15,9 @@ from typing import Any
 
 from .interval import Arithmetic, Interval, Rejected
 
+#: Intervals, models, or duals of these.
+Numbers = Sequence[Any]
+
 
 class Model(Arithmetic):
     """The functions with |x(s) - Σ c_k s^k·2^-bits| ≤ off·2^-bits for 0 ≤ s ≤ 1; `terms`: the integers c_k."""
@@ -106,10 +109,10 @@ class Dual(Arithmetic):
 
     __slots__ = ("slopes", "value")
 
-    def __init__(self, value: Any, slopes: Sequence[Any] = ()):
+    def __init__(self, value: Any, slopes: Numbers = ()):
         self.value, self.slopes = value, slopes
 
-    def _times(self, factor: Any) -> list[Any]:
+    def _times(self, factor: Any) -> Numbers:
         """The slopes times a factor."""
         return [x * factor for x in self.slopes]
 
@@ -132,14 +135,12 @@ class Dual(Arithmetic):
         return Dual(one * other, self._times(one * one * -other))
 
 
-def _added(a: Sequence[Any], b: Sequence[Any]) -> Sequence[Any]:
+def _added(a: Numbers, b: Numbers) -> Numbers:
     """The sum of two lists of slopes, either of which may be empty, for a constant."""
     return [x + y for x, y in zip(a, b, strict=True)] if a and b else a or b
 
 
-def derivatives(
-    of: Callable[[Sequence[Any]], Sequence[Any]], at: Sequence[Any], along: Sequence[Sequence[Any]]
-) -> list[Dual]:
+def derivatives(of: Callable[[Numbers], Numbers], at: Numbers, along: Sequence[Numbers]) -> list[Dual]:
     """The values of a function of several numbers, with their derivatives along some directions."""
     found = of([Dual(x, slopes) for x, slopes in zip(at, zip(*along, strict=True), strict=True)])
     return [x if x.slopes else Dual(x.value, [0 * x.value] * len(along)) for x in found]

@@ -15,6 +15,8 @@ from typing import Any
 from .interval import Rejected
 from .taylor import Dual
 
+#: An expression.
+Tree = int | str | list["Tree"]
 #: Limits for the trees and values of a certificate, which bound time and memory.
 MOST_DEPTH, MOST_OPERANDS, MOST_POWER, MOST_BITS, MOST_BITS_OF_VALUES = 60, 20_000, 60, 1_000, 2_000
 #: The form of a name, such as q0, R_+ and Omega^T; none has the form of a power.
@@ -23,13 +25,13 @@ MOST_LETTERS_OF_A_NAME = 40
 _QUOTIENT = re.compile(r"-?[1-9]\d*/[1-9]\d*", re.ASCII)
 
 
-def check_name(name: Any, where: str) -> None:
+def check_name(name: object, where: str) -> None:
     """Raises Rejected unless this is a valid name of a variable: at most 40 letters and digits, such as R_+ and R^T."""
     if not isinstance(name, str) or not _is_name(name):
         raise Rejected(f"{where} has an invalid name: {name!a:.40}")
 
 
-def rational(x: Any, where: str) -> Fraction:
+def rational(x: object, where: str) -> Fraction:
     """The number at a leaf of a tree, which must have its unique form."""
     if type(x) is int and x.bit_length() <= MOST_BITS:
         return Fraction(x)
@@ -61,7 +63,7 @@ def bounded(x: Any) -> Any:
     return x
 
 
-def check_tree(tree: Any, where: str, depth: int = 0) -> None:
+def check_tree(tree: object, where: str, depth: int = 0) -> None:
     """Raises Rejected unless `tree` is an expression."""
     if not isinstance(tree, list):
         if not isinstance(tree, str) or not _is_name(tree):
@@ -79,13 +81,13 @@ def check_tree(tree: Any, where: str, depth: int = 0) -> None:
         check_tree(part, where, depth + 1)
 
 
-def check_known(trees: Sequence[Any], names: Collection[str], where: str) -> None:
+def check_known(trees: Sequence[Tree], names: Collection[str], where: str) -> None:
     """Raises Rejected if expressions have other names than these."""
     if other := sorted(name for name in names_in([0, *trees]) if name not in names):
         raise Rejected(f"{where} has the name {other[0]!a:.40}, which is not among its variables")
 
 
-def value(tree: Any, names: Mapping[str, Any], number: Callable[[Fraction], Any]) -> Any:
+def value(tree: Tree, names: Mapping[str, Any], number: Callable[[Fraction], Any]) -> Any:
     """The value of a tree in any arithmetic with + * **; `names`: values of names; `number`: converts rational numbers.
 
     Raises Rejected for a name without a value: so a tree can only have names that are known in its place.
@@ -109,7 +111,7 @@ def _joined(operation: Callable[[Any, Any], Any], values: list[Any]) -> Any:
     return bounded(operation(_joined(operation, values[:half]), _joined(operation, values[half:])))
 
 
-def names_in(tree: Any) -> set[str]:
+def names_in(tree: Tree) -> set[str]:
     """The names that occur in a checked tree."""
     found, pending = set[str](), [tree]
     while pending:
@@ -121,13 +123,14 @@ def names_in(tree: Any) -> set[str]:
     return found
 
 
-def divisors(tree: Any) -> set[str]:
+def divisors(tree: Tree) -> set[str]:
     """The names that occur in divisors of a tree."""
-    if not isinstance(tree, list):
-        return set()
-    if tree[0] == "^":
-        return names_in(tree[1]) if tree[2] < 0 else divisors(tree[1])
-    return set().union(*map(divisors, tree[1:]))
+    match tree:
+        case ["^", of, int(power)]:
+            return names_in(of) if power < 0 else divisors(of)
+        case [_, *parts]:
+            return set().union(*map(divisors, parts))
+    return set()
 
 
 def size(tree: Any) -> int:

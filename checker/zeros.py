@@ -6,16 +6,17 @@ names, and a radius.  Names may be defined for frequent subexpressions.  Trees i
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from fractions import Fraction
 from functools import partial
 from typing import Any
 
+from .document import Data
 from .form import once, sized
 from .interval import Interval, Rejected
 from .linear import Matrix, Vector, isolated, units
 from .polynomial import Work
-from .taylor import Dual, derivatives
+from .taylor import Dual, Numbers, derivatives
 from .trees import size, value
 
 #: The most unknowns.
@@ -24,7 +25,7 @@ MOST_UNKNOWNS = 20
 LARGE = 2000
 
 
-def check_form(one: dict[str, Any], point: Mapping[str, Any], made: Collection[str], where: str) -> None:
+def check_form(one: Data, point: Data, made: Collection[str], where: str) -> None:
     """Raises Rejected unless each name of a zero has one value, and there are as many equations as unknowns."""
     if not set(one["unknowns"]) <= point.keys() or not 1 <= len(one["unknowns"]) <= MOST_UNKNOWNS:
         raise Rejected(f"{where} must have from 1 to {MOST_UNKNOWNS} unknowns, with values at its point")
@@ -36,7 +37,7 @@ def check_form(one: dict[str, Any], point: Mapping[str, Any], made: Collection[s
         raise Rejected(f"{where} must have a radius above 0")
 
 
-def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: str) -> None:
+def check(one: Data, point: Mapping[str, Any], work: Work, where: str) -> None:
     """Raises Rejected unless there is exactly one solution within the radius in each unknown (linear.py)."""
     radius = Fraction(one["radius"])
     bits = 64 + 2 * max(radius.denominator.bit_length(), *(x.denominator.bit_length() for x in point.values()))
@@ -45,7 +46,7 @@ def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: s
     numbers = {name: Dual(Interval.about(x, bits)) for name, x in point.items()}
     box = [Interval.about(point[name], bits, radius) for name in unknowns]
 
-    def of(part: str, values: Sequence[Any]) -> list[Any]:
+    def of(part: str, values: Numbers) -> Numbers:
         known = {**numbers, **dict(zip(unknowns, values, strict=True))}
 
         def number(x: Fraction) -> Dual:

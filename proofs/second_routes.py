@@ -40,14 +40,14 @@ def unit(n: int) -> Array:
     return np.eye(n, dtype=int).astype(object)
 
 
-def skew(above: Sequence[Any], n: int) -> Array:
+def skew(above: Sequence[Ratio | int], n: int) -> Array:
     """The skew matrix with the given entries above the diagonal, row by row."""
     matrix, places = unit(n) * 0, np.triu_indices(n, 1)
     matrix[places] = above[: len(places[0])]
     return matrix - matrix.T
 
 
-def hat(v: Any) -> Array:
+def hat(v: Array | Sequence[Ratio | int]) -> Array:
     """The matrix of x ↦ v × x."""
     return skew([-v[2], v[1], -v[0]], 3)
 
@@ -57,7 +57,7 @@ def axial(matrix: Array) -> Array:
     return array([matrix[2, 1], matrix[0, 2], matrix[1, 0]])
 
 
-def determinant(matrix: Array) -> Any:
+def determinant(matrix: Array) -> Ratio:
     """The determinant, by expansion along the first row."""
     if len(matrix) == 1:
         return matrix[0, 0]
@@ -90,28 +90,28 @@ def sphere(a: Ratio, b: Ratio) -> Array:
 # Section 4: the momentum about the contact point
 
 
-def momentum(turn: Array, J: Array, vertical: Array, D: Any, last: int = 1) -> Array:
+def momentum(turn: Array, J: Array, vertical: Array, D: Ratio, last: int = 1) -> Array:
     """𝒦 by the first form of (4.13); `last` mutates the factor of its last term."""
     contact = np.outer(vertical, vertical)
     shifted = J + D / 2 * contact
     return turn @ shifted - shifted @ turn.T + last * D / 2 * (contact @ turn - turn.T @ contact)
 
 
-def momentum_by_centre(turn: Array, J: Array, vertical: Array, D: Any) -> Array:
+def momentum_by_centre(turn: Array, J: Array, vertical: Array, D: Ratio) -> Array:
     """𝒦 by the second form of (4.13)."""
     contact = np.outer(vertical, vertical)
     rolling = turn @ contact - contact @ turn.T + (contact @ turn - turn.T @ contact)
     return turn @ J - J @ turn.T + D / 2 * rolling
 
 
-def centre_step(before: Array, after: Array, vertical: Array, rho: Any, naive: bool = False) -> Array:
+def centre_step(before: Array, after: Array, vertical: Array, rho: Ratio, naive: bool = False) -> Array:
     """Δr by the discrete constraint (4.9), or by the naive constraint that the paper rejects."""
     turn = after @ before.T
     return -rho * (turn @ vertical - vertical) if naive else -rho / 2 * (turn - turn.T) @ vertical
 
 
 def momentum_in_space(
-    before: Array, after: Array, J: Array, vertical: Array, mass: Any, rho: Any, naive: bool = False
+    before: Array, after: Array, J: Array, vertical: Array, mass: Any, rho: Ratio, naive: bool = False
 ) -> Array:
     """m - ρ(pγᵀ - γpᵀ) of one step between two attitudes, with m by (4.3), p = mΔr and Δr by (4.9)."""
     impulse = mass * centre_step(before, after, vertical, rho, naive)
@@ -119,7 +119,7 @@ def momentum_in_space(
     return after @ J @ before.T - before @ J @ after.T - rho * rolling
 
 
-def action(R: list[Array], r: list[Array], J: Array, mass: Any) -> Array:
+def action(R: list[Array], r: list[Array], J: Array, mass: Ratio) -> Array:
     """𝕃(k-1, k) and 𝕃(k, k+1) with 𝕃 by (4.1) as corrected."""
     return array(
         [
@@ -144,7 +144,7 @@ def principle(n: int) -> Identity:
     steps = [centre_step(before, after, vertical, rho) for before, after in pairwise(R)]
     r = [0 * steps[0], steps[0], steps[0] + steps[1]]
 
-    def displaced(size: Any) -> Array:
+    def displaced(size: Ratio) -> Array:
         """The action after a rotation ξ of R_k, with δr = -ρξγ by the constraint (4.2)."""
         there = [R[0], R[1] + size * virtual @ R[1], R[2]]
         return action(there, [r[0], r[1] - size * rho * virtual @ vertical, r[2]], J, mass)
@@ -230,8 +230,8 @@ class VerticalStep:
 
     u: Array
     gamma: Array
-    kappa: Any
-    D: Any
+    kappa: Ratio
+    D: Ratio
     h: Any
 
     @cached_property
@@ -265,16 +265,16 @@ class VerticalStep:
         return (sum(self.lam) - self.D) / 2 - self.lam
 
     @property
-    def cosine(self) -> Any:
+    def cosine(self) -> Ratio:
         """cos θ of the rotation."""
         return (np.trace(self.turn) - 1) / 2
 
-    def sigma(self, part: int = 4) -> Any:
+    def sigma(self, part: int = 4) -> Ratio:
         """σ of (5.11) as corrected; `part` is 8 as printed."""
         return self.h / (1 - self.D / part * (self.sum @ self.inverse_of_sum))
 
     @property
-    def second(self) -> Any:
+    def second(self) -> Ratio:
         """⟨s, Λ⁻²s⟩."""
         return self.inverse_of_sum @ self.inverse_of_sum
 
@@ -296,7 +296,7 @@ def vertical_step(unit_height: bool = False) -> VerticalStep:
     This reaches all states with q₀q₁q₂q₃ ≠ 0, which are dense among those with σ ≠ 0.
     """
     *u, a, b, D, height = parameters("u1 u2 u3 a b D h")
-    h: Any = 1 if unit_height else height
+    h = 1 if unit_height else height
     gibbs, gamma = array(u), sphere(a, b)
     kappa = h * (1 + gibbs @ gibbs) + 2 * D * (gamma @ gibbs)  # σ/q₀²
     return VerticalStep(gibbs, gamma, kappa, D, h)
@@ -374,13 +374,13 @@ class Lowest:
 class Parts:
     """The parts of (5.15): sn²δu, 𝒟, V w(δu), G and l - μ sn²δu."""
 
-    y: Any
-    scale: Any
-    vw: Any
-    G: Any
-    level: Any
+    y: Ratio
+    scale: Ratio
+    vw: Ratio
+    G: Ratio
+    level: Ratio
 
-    def relation(self, D: Any, sign: int = 1) -> Any:
+    def relation(self, D: Ratio, sign: int = 1) -> Ratio:
         """T = G𝒟 - 2Vw(𝒟 - D(l - μ sn²δu)): (5.15) as corrected is T = 0; `sign` mutates V."""
         return self.G * self.scale - 2 * sign * self.vw * (self.scale - D * self.level)
 
@@ -388,9 +388,9 @@ class Parts:
 class Curve(NamedTuple):
     """l, C1², C2², C3² of (5.8) as corrected, k², the coefficients of 1/Λ1², 1/Λ2², 1/Λ3² in G, and the parts."""
 
-    level: Any
+    level: Ratio
     squares: Array
-    modulus: Any
+    modulus: Ratio
     coefficients: Array
     parts: Parts
 
@@ -419,7 +419,7 @@ def curve(gamma: Array, following: Array, inverse: Array, lowest: Lowest) -> Cur
     return Curve(l, squares, k2, coefficients, Parts(y, scale, vw, coefficients @ inverse**2, level))
 
 
-def half_square(sign: int, products: Array, k2: Any, over: Array, above: Any, lowest: Lowest) -> Any:
+def half_square(sign: int, products: Array, k2: Ratio, over: Array, above: Ratio, lowest: Lowest) -> Ratio:
     """sn² of (ũ + sign·u)/2, by sn²(x/2) = (1 - cn x)/(1 + dn x); above: 1/(1 - k² sn²u sn²ũ)."""
     (a, b, c), (x, y, z) = over, products
     name = f"(ũ {'+' if sign > 0 else '-'} u)"
@@ -440,7 +440,7 @@ def pair_on_a_curve() -> tuple[Array, Array, Array, Lowest]:
     return gamma, following, lowest("1/Λ1, 1/Λ2, 1/Λ3", 1 / lam), lowest
 
 
-def has_kappa(gamma: Array, following: Array, inverse: Array) -> tuple[Identity, Any]:
+def has_kappa(gamma: Array, following: Array, inverse: Array) -> tuple[Identity, Ratio]:
     """The identity (5.10) for two points of a curve, and its ϰ."""
     s, d = gamma + following, following - gamma
     product = np.cross(s, s * inverse)

@@ -68,7 +68,7 @@ def told_by(words: Sequence[Word], weight: int) -> Equation:
     return Equation(text, element.values(), told, Quotient(factors))
 
 
-def _combination(row: Sequence[Any], of: Sequence[sp.Expr]) -> sp.Expr:
+def _combination(row: Sequence[fmpq], of: Sequence[sp.Expr]) -> sp.Expr:
     """A linear combination, unevaluated."""
     terms = [sp.Mul(sp.Rational(str(c)), x, evaluate=False) for c, x in zip(row, of, strict=True) if c != 0]
     return sp.Add(*terms, evaluate=False)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from chapsym import checker
+from chapsym.checker.document import Data
 from chapsym.prove import Fact, Proof
 
 FOLDER = Path(__file__).parents[1].joinpath("certificates")
@@ -24,7 +25,7 @@ def _kind(file: Path) -> str | None:
     return None if found is None else str(found.get("kind"))
 
 
-def _read(file: Path) -> dict[str, Any] | None:
+def _read(file: Path) -> Data | None:
     try:
         return checker.read(file)
     except (checker.Unreadable, checker.Rejected):
@@ -36,7 +37,7 @@ def has_branch(file: Path) -> bool:
     return "branch" in (_read(file) or {})
 
 
-def present(p: Proof, found: Sequence[Path], kind: str) -> list[dict[str, Any]]:
+def present(p: Proof, found: Sequence[Path], kind: str) -> list[Data]:
     """Adds the checker's verdicts on files to the evidence; returns the accepted data, with the fewest steps first."""
     if not found:
         p.problems.append(f"there is no certificate of kind {kind}")
@@ -53,9 +54,9 @@ def present(p: Proof, found: Sequence[Path], kind: str) -> list[dict[str, Any]]:
     return sorted(accepted, key=lambda data: data.get("steps", 0))
 
 
-def changed(text: str, data: dict[str, Any], place: Sequence[str | int], value: Any) -> Fact:
+def changed(text: str, data: Data, place: Sequence[str | int], value: object) -> Fact:
     """The statement that the checker accepts a copy with another number at `place` and a new digest."""
-    whole = copy.deepcopy(data)
+    whole = copy.deepcopy(dict(data))
     inside: Any = whole
     for name in place[:-1]:
         inside = inside[name]

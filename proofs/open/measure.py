@@ -1,9 +1,8 @@
 """The open question of Section 5: finite measures with a positive density, for D > 0, in six cases."""
 
-from typing import Any
-
 import sympy as sp
 
+from chapsym.checker.document import Data
 from chapsym.derive.gibbs import I1, I2
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs.map import gibbs, self_adjoint, symmetries
@@ -124,7 +123,7 @@ def ends(p: Proof) -> None:
             p.control(certified.changed(f"the certificate of the ends with {text}", data, place, value))
 
 
-def tampered(p: Proof, data: dict[str, Any]) -> None:
+def tampered(p: Proof, data: Data) -> None:
     """Controls: the certificate with one number changed and a new digest."""
     first = data["orbits"][0]
     middle = data["steps"] // 2

@@ -1,7 +1,6 @@
 """Section 5: how many rotations have a given momentum, counted exactly, and the one that is small."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -23,7 +22,7 @@ from chapsym.prove import (
     main,
 )
 
-Vector = Sequence[Any]
+Vector = Sequence[int | str]
 
 #: The ball and the vertical of the examples, and 𝒦 for each number of real solutions.
 BALL, VERTICAL = (1, 2, 4), ("6/7", "2/7", "3/7")

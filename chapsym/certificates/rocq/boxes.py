@@ -6,12 +6,11 @@ from fractions import Fraction
 from typing import Any
 
 from chapsym.checker import measure
+from chapsym.checker.document import Data
 from chapsym.checker.interval import Interval
 from chapsym.checker.linear import Vector, cross, dot, minus, times
 from chapsym.checker.step import Ball, gibbs_vector, jacobian, residual
 
-#: The object of a certificate, or of a part of it.
-Document = dict[str, Any]
 #: The unit of a row of an approximate inverse derivative; and the largest error of its product with the derivative.
 ROW, KAPPA = Fraction(1, 10**8), Fraction(1, 10**5)
 
@@ -42,7 +41,7 @@ class Step:
 class Walk:
     """The orbits of a certificate in boxes; raises `chapsym.checker.Rejected` if it proves nothing."""
 
-    def __init__(self, data: Document):
+    def __init__(self, data: Data):
         self.data, self.circle, self.radius = data, measure.Circle(data), Fraction(data["radius"])
         self.J = [Fraction(x) for x in data["ball"]["J"]]
         self.D, self.height, self.level = (Fraction(data["ball"][name]) for name in ("D", "height", "level"))
@@ -83,7 +82,7 @@ class Walk:
         turned = minus(gamma, times(2 / (1 + dot(u, u)), minus(once, cross(u, once))))
         return Step(Box(centre, radius), self.box(turned), missed, distance, rows)
 
-    def orbit(self, zero: int, steps: Sequence[Document]) -> tuple[Box, list[Step]]:
+    def orbit(self, zero: int, steps: Sequence[Data]) -> tuple[Box, list[Step]]:
         """The start with γ_zero = 0, and the steps."""
         start = self.box(self.circle.start(Fraction(zero == self.circle.a)))
         found: list[Step] = []

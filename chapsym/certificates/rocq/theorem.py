@@ -6,11 +6,12 @@ from itertools import pairwise
 from pathlib import Path
 
 from chapsym.checker import Rejected
+from chapsym.checker.document import Data
 from chapsym.checker.linear import Vector
 from chapsym.checker.measure import ZEROS
 from chapsym.files import write_text
 
-from .boxes import KAPPA, Box, Document, Step, Walk
+from .boxes import KAPPA, Box, Step, Walk
 
 HERE = Path(__file__).resolve().parent
 
@@ -42,7 +43,7 @@ def ends(box: Box) -> str:
 class Theorem:
     """The theorem of an accepted certificate, as text by str(Theorem(…)); raises Rejected if there is none."""
 
-    def __init__(self, name: str, data: Document):
+    def __init__(self, name: str, data: Data):
         if "branch" in data or any(one["start"] not in ZEROS for one in data["orbits"]):
             raise Rejected("only certificates without a branch, with the starts a and b, are written for Rocq")
         self.name, self.data, self.walk = name, data, Walk(data)
@@ -104,7 +105,7 @@ Proof.
 Print Assumptions {self.name}.
 """
 
-    def _orbit(self, data: Document) -> tuple[str, str, str]:
+    def _orbit(self, data: Data) -> tuple[str, str, str]:
         """The lemmas of an orbit, its conclusions, and the proof."""
         circle, q, name = self.walk.circle, self.data["steps"], data["start"]
         zero, other = (circle.a, circle.b) if name == "a" else (circle.b, circle.a)
@@ -133,7 +134,7 @@ Print Assumptions {self.name}.
             f"    repeat match goal with |- _ /\\ _ => split end.\n{proofs}",
         )
 
-    def _rounded(self, steps: Sequence[Document], found: Sequence[Step]) -> list[tuple[str, str]]:
+    def _rounded(self, steps: Sequence[Data], found: Sequence[Step]) -> list[tuple[str, str]]:
         """Statements that the numbers of the file are correctly rounded, with proofs; else raises Rejected."""
         facts = []
         for k, (given, step) in enumerate(zip(steps, found, strict=True), 1):
