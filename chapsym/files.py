@@ -6,13 +6,15 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 try:
     import fcntl
 except ImportError:  # Windows
     fcntl = None  # type: ignore[assignment]
 
+#: An object of JSON: a part of a file or of a result.
+Data = dict[str, Any]
 #: Limits of a text that is read whole, and of its first line: an hour of a motion, a thousand frames each second.
 MOST_BYTES, MOST_LINE = 2**30, 2**24
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from types import ModuleType
 
 from chapsym import extras, files
 from chapsym.cli import measured
@@ -51,7 +51,7 @@ def extremes(groups: Sequence[str], quick: bool, output: Path | None, as_json: b
         fail(f"{failed} of {len(cells)} cells failed", 1)
 
 
-def _print_matrix(page: Any, matrix: dict[str, Any]) -> None:
+def _print_matrix(page: ModuleType, matrix: files.Data) -> None:
     from rich.text import Text
 
     console = console_for(120)
@@ -84,7 +84,7 @@ def study(name: str, quick: bool, output: Path | None, scheduler: str | None, as
         print(f"wrote {path}")
 
 
-def _write(module: Any, name: str, found: dict[str, Any], folder: Path) -> list[Path]:
+def _write(module: ModuleType, name: str, found: files.Data, folder: Path) -> list[Path]:
     """The data as JSON and the figures, each whole."""
     data = folder / f"{name}.json"
     files.write_text(data, json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n")

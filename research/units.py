@@ -13,12 +13,13 @@ from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import chapsym
 from chapsym import jobs, sources
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.frames import cores
+from chapsym.files import Data
 
 #: Called with the units that are done and how many there are.
 Report = Callable[[int, int], None]
@@ -31,7 +32,7 @@ class Unit:
     """One call: "package.module:function" and its keyword arguments, which JSON can hold as they are."""
 
     function: str
-    arguments: dict[str, Any] = field(default_factory=dict)
+    arguments: Data = field(default_factory=dict)
 
     @property
     def key(self) -> str:
@@ -43,7 +44,7 @@ class Unit:
 _sources = cache(sources.fingerprint)
 
 
-def compute(function: str, arguments: dict[str, Any], key: str) -> Any:
+def compute(function: str, arguments: Data, key: str) -> Any:
     """The result of a unit, of which `key` identifies the sources: in another process these must be the same."""
     if Unit(function, arguments).key != key:
         raise BadInput(f"a worker has another chapsym ({chapsym.__version__}): give all the same")
@@ -90,7 +91,7 @@ def run_units(
 
 
 @contextmanager
-def _kept(path: Path | None) -> Iterator[tuple[dict[str, Any], Callable[[str, Any], None]]]:
+def _kept(path: Path | None) -> Iterator[tuple[Data, Callable[[str, object], None]]]:
     """The results that a file has, and what appends one to it, flushed; it is locked meanwhile."""
     if path is None:
         yield {}, lambda key, result: None
@@ -99,14 +100,14 @@ def _kept(path: Path | None) -> Iterator[tuple[dict[str, Any], Callable[[str, An
         jobs.claim(stream, str(path))
         done = _read(stream, path)
 
-        def keep(key: str, result: Any) -> None:
+        def keep(key: str, result: object) -> None:
             line = json.dumps(_record(key, result), ensure_ascii=False, allow_nan=False) + "\n"
             _written(lambda: (stream.write(line), stream.flush()))
 
         yield done, keep
 
 
-def _read(stream: Any, path: Path) -> dict[str, Any]:
+def _read(stream: TextIO, path: Path) -> Data:
     """The results in an open file.  A last line without its end was cut off when its writer was killed, and goes."""
     try:
         stream.seek(0)
@@ -130,7 +131,7 @@ def _read(stream: Any, path: Path) -> dict[str, Any]:
     return found
 
 
-def _record(key: str, result: Any) -> dict[str, Any]:
+def _record(key: str, result: object) -> Data:
     """A line of the file, with a checksum."""
     return {"key": key, "result": result, "sha256": hashlib.sha256(json.dumps([key, result]).encode()).hexdigest()}
 

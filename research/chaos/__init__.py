@@ -4,7 +4,8 @@
 """
 
 from itertools import product
-from typing import Any
+
+from chapsym.files import Data
 
 from ..energy.section import packed
 from ..units import Run, Unit, run_units
@@ -32,17 +33,17 @@ LENGTHS = (5_000, 20_000, 80_000)
 VARIED = ((0, 1, 3), 1.0, 0.9)
 #: The figures: a level at a moderate ε, and a chaotic layer of it at a large one.
 LEVEL = [[0, 1, 3], 1.0, 0.5]
-PICTURES: tuple[dict[str, Any], ...] = (
+PICTURES: tuple[Data, ...] = (
     {"ball": LEVEL, "epsilon": 0.9, "lines": [[0.0, -0.2, 0.6], [1.0, -0.1, 0.5]]},
     {"ball": LEVEL, "epsilon": 2.0, "lines": [[1.0, 0.335, 0.35], [0.0, 0.41, 0.435]]},
 )
 
 
-def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
+def study(quick: bool = False, run: Run = run_units) -> Data:
     """Counts of chaotic orbits against ε, their exponents, what the phase volume does, and pictures; JSON data."""
     units = _units(quick)
     results = run([unit for _, unit in units])
-    found: dict[str, Any] = {"seed": SEED, "samples": [], "lengths": [], "pictures": []}
+    found: Data = {"seed": SEED, "samples": [], "lengths": [], "pictures": []}
     for (group, unit), result in zip(units, results, strict=True):
         arguments = {name: value for name, value in unit.arguments.items() if name not in ("seed", "points")}
         if group == "pictures":
@@ -55,7 +56,7 @@ def _units(quick: bool) -> list[tuple[str, Unit]]:
     orbits, steps = (64, 4_000) if quick else (ORBITS, STEPS)
     epsilons = (0.3, 0.9, 2.0) if quick else EPSILONS
 
-    def sample(J: Any, D: float, epsilon: float, near: bool, length: int) -> Unit:
+    def sample(J: tuple[float, ...], D: float, epsilon: float, near: bool, length: int) -> Unit:
         arguments = {"mass_tensor": list(J), "D": D, "epsilon": epsilon, "near": near, "orbits": orbits}
         return Unit(HERE + "sample", {**arguments, "steps": length, "seed": SEED})
 
@@ -68,7 +69,7 @@ def _units(quick: bool) -> list[tuple[str, Unit]]:
     ]
 
 
-def sentences(found: dict[str, Any]) -> list[str]:
+def sentences(found: Data) -> list[str]:
     """The findings, a line each."""
     sentences = []
     control = [s for s in found["samples"] if s["D"] == 0]

@@ -1,12 +1,11 @@
 """The figures: the share of chaotic orbits against ε, and the section K₂ = 0 at a moderate and at a large ε."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
+from chapsym.files import Data
 from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
 from ..energy.continuous import Level
@@ -14,7 +13,7 @@ from ..energy.section import state, unpacked
 from .orbits import share
 
 
-def draw_shares(found: dict[str, Any]) -> Picture:
+def draw_shares(found: Data) -> Picture:
     """Two panels, by how the starts were drawn: shares with 95% intervals, one line a ball."""
     figure, axes = new("", 1, 2, height=4.4, width=WIDE, sharey=True)
     balls = sorted({(tuple(s["mass_tensor"]), s["D"]) for s in found["samples"]}, key=lambda b: (b[1] == 0, b))
@@ -41,7 +40,7 @@ def draw_shares(found: dict[str, Any]) -> Picture:
     return figure
 
 
-def draw_section(found: dict[str, Any]) -> Picture:
+def draw_section(found: Data) -> Picture:
     """The section (ψ, θ) at the moderate ε, (ψ, H) around the layer; regular orbits in blue by their energy, chaotic
     ones by their exponent."""
     figure, axes = new("", 1, len(found["pictures"]), height=5.6, width=WIDE)

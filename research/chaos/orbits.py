@@ -12,6 +12,7 @@ from chapsym.dynamics import Ball, native
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.loops.gibbs import HEAVY
 from chapsym.dynamics.loops.tangent import follow_all
+from chapsym.files import Data
 
 from ..energy.amplitude import chunks
 from ..energy.continuous import Level
@@ -39,7 +40,7 @@ def starts(orbits: int, near: bool, seed: int) -> tuple[Floats, Floats]:
     return K / np.linalg.norm(K, axis=1, keepdims=True), g / np.linalg.norm(g, axis=1, keepdims=True)
 
 
-def follow_orbits(ball: Any, momenta: np.ndarray, gammas: np.ndarray, steps: int) -> dict[str, np.ndarray]:
+def follow_orbits(ball: Ball, momenta: np.ndarray, gammas: np.ndarray, steps: int) -> dict[str, np.ndarray]:
     """The `COLUMNS` of each orbit of a ball, from the starts (n, 3) and (n, 3); NaN where an orbit met a fold.
 
     Raises ValueError for a heavy ball: its Gibbs vector needs another kernel.
@@ -53,9 +54,7 @@ def follow_orbits(ball: Any, momenta: np.ndarray, gammas: np.ndarray, steps: int
     return dict(zip(COLUMNS, rows.T, strict=True))
 
 
-def sample(
-    mass_tensor: list[float], D: float, epsilon: float, near: bool, orbits: int, steps: int, seed: int
-) -> dict[str, Any]:
+def sample(mass_tensor: list[float], D: float, epsilon: float, near: bool, orbits: int, steps: int, seed: int) -> Data:
     """The number of chaotic orbits of `orbits` with |𝒦| = ε I_min, and their rate; the change of the phase volume.
 
     folded: orbits that met a fold, which are not counted.  growth: quantiles of log(growth)/log(steps) of the regular
@@ -70,7 +69,7 @@ def sample(
     kept = {name: column[np.isfinite(found["growth1"])] for name, column in found.items()}
     growth = kept["growth1"] / np.log(steps)
     chaotic = growth > LIMIT
-    report: dict[str, Any] = {
+    report: Data = {
         "counted": len(growth), "folded": orbits - len(growth), "chaotic": int(chaotic.sum()),
         "regular": {}, "wild": {},
     }  # fmt: skip
@@ -96,7 +95,7 @@ def sample(
 
 def picture(
     ball: list[Any], epsilon: float, lines: list[list[float]], orbits: int, steps: int, points: int
-) -> list[dict[str, Any]]:
+) -> list[Data]:
     """For starts on lines (ψ, first θ, last θ), in π: the exponent and at most `points` points (ψ, θ), in 10⁻⁵π.
 
     Chaotic orbits have four times as many.  A start that meets a fold, or does not cross upwards, is left out.

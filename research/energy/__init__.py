@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from chapsym.files import Data
+
 from ..units import Run, Unit, run_units
 from .continuous import Level
 from .section import packed
@@ -42,7 +44,7 @@ SHOWN = 0.05
 ISLAND = (0.02, 0.3, 0.55, 0.8, 0.93, 1.03, -1.03, 1.25, -1.25)
 
 
-def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
+def study(quick: bool = False, run: Run = run_units) -> Data:
     """Range and drift of the energy at generic, vertical and resonant starts, and with D = 0; JSON data."""
     balls = [[list(J), D, c] for J, D in BALLS for c in COSINES]
     balls = [[[0, 1, 3], 4.0, 0.5], [[1, 2, 4], 1.0, 0.617126]] if quick else balls
@@ -55,7 +57,7 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
     results = run([unit for _, unit in units])
     names = ("ball", "returns", "period", "energy", "beta", "width", "libration")
     table = [{**{n: r[n] for n in names}, "loop": max(r["loop"], key=abs)} for r in every]
-    found: dict[str, Any] = {"seed": SEED, "shown": SHOWN, "resonances": table, "widest": resonant}
+    found: Data = {"seed": SEED, "shown": SHOWN, "resonances": table, "widest": resonant}
     for (group, unit), result in zip(units, results, strict=True):
         lines = {"ball": unit.arguments["ball"], "start": unit.arguments["start"]}
         if group == "islands":
@@ -69,13 +71,13 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
     return found
 
 
-def _units(resonant: list[dict[str, Any]], quick: bool) -> list[tuple[str, Unit]]:
+def _units(resonant: list[Data], quick: bool) -> list[tuple[str, Unit]]:
     """The runs, each with the group that it belongs to."""
     epsilons = (0.05, 0.1, 0.2, 0.4) if quick else EPSILONS
     steps = 10**4 if quick else 10**6
     units = []
 
-    def run(group: str, ball: list[Any], start: Any, epsilon: float, count: int) -> None:
+    def run(group: str, ball: list[Any], start: np.ndarray | list[np.ndarray], epsilon: float, count: int) -> None:
         arguments = {"ball": ball, "start": np.asarray(start).tolist(), "epsilon": epsilon, "steps": count}
         units.append((group, Unit(HERE + "amplitude", arguments)))
 
@@ -112,7 +114,7 @@ def starts(size: float) -> np.ndarray:
     return drawn * np.array([size, 1.0])[:, np.newaxis]
 
 
-def _exponent(runs: list[dict[str, Any]]) -> dict[str, float]:
+def _exponent(runs: list[Data]) -> dict[str, float]:
     """The power of ε that the relative range follows: fitted up to SMALL for each start, and averaged.
 
     error: the standard error of the average; 0 of a single one.
@@ -127,7 +129,7 @@ def _exponent(runs: list[dict[str, Any]]) -> dict[str, float]:
     return {"power": float(powers.mean()), "error": float(error)}
 
 
-def sentences(found: dict[str, Any]) -> list[str]:
+def sentences(found: Data) -> list[str]:
     """The findings, a line each."""
     powers = found["powers"]
     lines = [

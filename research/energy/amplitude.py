@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics.ball import Floats
+from chapsym.files import Data
 
 from .continuous import Level
 from .resonance import closed_orbits, on_level, profile
@@ -57,7 +58,7 @@ def drift(H: Floats) -> tuple[float, float]:
     return slope, float(np.sqrt(left @ left / (PARTS - 2) / (x @ x)))
 
 
-def resonances(ball: list[Any], most: int, time: float, grid: int) -> list[dict[str, Any]]:
+def resonances(ball: list[Any], most: int, time: float, grid: int) -> list[Data]:
     """The resonances of a level with closed orbits through ψ = 0, as plain data, the widest first."""
     level = Level(tuple(ball[0]), *ball[1:])
     found = [profile(level, 0.0, *orbit) for orbit in closed_orbits(level, 0.0, most, time, grid)]
@@ -86,9 +87,7 @@ def loop_change(ball: list[Any], start: list[list[float]], period: float, counts
     return found
 
 
-def island(
-    ball: list[Any], start: list[list[float]], energy: float, epsilon: float, steps: int, most: int
-) -> dict[str, Any]:
+def island(ball: list[Any], start: list[list[float]], energy: float, epsilon: float, steps: int, most: int) -> Data:
     """At most `most` points (ψ, H) on the section of a run from `start`, moved to H = `energy`, and how it swings.
 
     Where a torus crosses the section in two sheets, one above the other in θ, those of the first crossing are kept.

@@ -1,10 +1,9 @@
 """The figures: the range of the energy against ε; the islands of the resonances on the section."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
+from chapsym.files import Data
 from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
 from .section import unpacked
@@ -14,7 +13,7 @@ OF = {"generic": BLUE, "resonant": RED}
 LABELS = {"generic": "generic starts", "resonant": "in the widest resonances"}
 
 
-def draw_amplitudes(found: dict[str, Any]) -> Picture:
+def draw_amplitudes(found: Data) -> Picture:
     """The range of H over each run against ε, with lines ε and ε²; and the change by a loop against the quadrature."""
     figure, (left, right) = new("", 1, 2, height=4.6, width=WIDE)
     for name in ("generic", "resonant"):
@@ -46,7 +45,7 @@ def draw_amplitudes(found: dict[str, Any]) -> Picture:
     return figure
 
 
-def draw_islands(found: dict[str, Any]) -> Picture:
+def draw_islands(found: Data) -> Picture:
     """For each ball the section near its widest resonance: H - H*, divided by εH*, against ψ about the island."""
     count = len(found["widest"])
     columns = count if count <= 3 else 2

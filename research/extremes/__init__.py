@@ -11,17 +11,18 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
 from functools import partial
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from chapsym import jobs
 from chapsym.dynamics import BadInput, StepNotTaken
 from chapsym.dynamics.levels.frames import cores
+from chapsym.files import Data
 
 from . import runs, states, steps
 from .judging import BUDGET, DOUBLE, FAILED, LEVELS, ORDER, Judge, Judged, Level, refused, worst
 
 #: A condition at a precision, as JSON has it, but that numbers may be infinite.
-Cell = dict[str, Any]
+Cell = Data
 
 
 class Group(NamedTuple):
@@ -32,7 +33,7 @@ class Group(NamedTuple):
 
     title: str
     judge: Callable[..., Judged]
-    items: Callable[[], Mapping[str, Sequence[Any]]]
+    items: Callable[[], Mapping[str, Sequence[object]]]
     levels: Sequence[Level] = LEVELS
 
     @property
@@ -109,7 +110,7 @@ def extremes(
     quick: shorter runs and smaller batches; groups: which rows, all by default.
     """
     wanted = _named(groups)
-    tasks: dict[Any, list[tuple[str, str]]] = {}  # rows with the same reference together: it is computed once
+    tasks: dict[str | tuple[str, str], list[tuple[str, str]]] = {}  # rows of one reference together, computed once
     for group, condition in wanted:
         tasks.setdefault(condition if group in SHARED else (group, condition), []).append((group, condition))
     found: dict[tuple[str, str], list[Cell]] = {}
@@ -137,7 +138,7 @@ def rows(groups: Sequence[str] | None = None) -> int:
     return len(_named(groups))
 
 
-def as_json(cells: Sequence[Cell], quick: bool) -> dict[str, Any]:
+def as_json(cells: Sequence[Cell], quick: bool) -> Data:
     """The matrix for --json, where no number is NaN or infinite."""
     return {
         "quick": quick,

@@ -3,18 +3,22 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import TypeAlias
 
 import flint
-import mpmath
+from mpmath import MPContext, mpf
+from numpy import ndarray
 
+from chapsym.dynamics import Step, Trajectory
 from chapsym.numbers import Digits, Double, DoubleDouble, Enclosure, Pair, Precision, Single
 
 #: The digits with which everything is compared.
-mp = mpmath.MPContext()
+mp = MPContext()
 mp.dps = 140
 #: The truth is known to this, relatively, and better.
 KNOWN = mp.mpf(10) ** -80
+#: A number of a precision, or an exact one.
+Number: TypeAlias = flint.arb | Pair | mpf | float | Fraction
 WITHIN, REFUSED, FAILED = "within", "refused", "failed"
 #: From bad to worse.
 ORDER = (WITHIN, REFUSED, FAILED)
@@ -45,7 +49,7 @@ class Level:
     guarded: bool = False
     compensated: bool = False
 
-    def spacing(self, size: Any) -> Any:
+    def spacing(self, size: mpf) -> mpf:
         """An ulp of numbers of this size, as an mpf."""
         return max(number(self.unit) * abs(size), number(self.least))
 
@@ -71,7 +75,7 @@ ENCLOSURE = Level(
 LEVELS = (SINGLE, DOUBLE, DOUBLE_DOUBLE, DIGITS, ENCLOSURE)
 
 
-def number(value: Any) -> Any:
+def number(value: Number) -> mpf:
     """The exact value of a number of any precision, as an mpf; of an enclosure its centre."""
     if isinstance(value, Fraction):
         return mp.mpf(value.numerator) / value.denominator
@@ -83,7 +87,7 @@ def number(value: Any) -> Any:
     return mp.make_mpf(value._mpf_) if hasattr(value, "_mpf_") else mp.mpf(float(value))
 
 
-def whole(found: Any, name: str) -> Any:
+def whole(found: Step | Trajectory, name: str) -> ndarray:
     """An array of a step or a run; with both halves of each number of double-double."""
     high = getattr(found, name)
     if found.low is None:
@@ -131,8 +135,8 @@ def refused(sentence: str, kappa: float | None = None) -> Judged:
 
 
 def compared(
-    level: Level, kappa: float | None, name: str, found: Iterable[Any], truth: Sequence[Any], promised: float,
-    size: Any = None,
+    level: Level, kappa: float | None, name: str, found: Iterable[Number], truth: Sequence[mpf], promised: float,
+    size: mpf | None = None,
 ) -> Judged:  # fmt: skip
     """A vector compared with the truth: an enclosure must contain it, and its radius is its error.
 
@@ -158,7 +162,7 @@ def compared(
 
 
 def state(
-    level: Level, kappa: float | None, found: Sequence[Any], exact: Sequence[Any], ulps: float, *more: Judged
+    level: Level, kappa: float | None, found: Sequence[ndarray], exact: Sequence[list[mpf]], ulps: float, *more: Judged
 ) -> Judged:
     """𝒦 and γ compared with the truth, with one promise, and what more is judged."""
     momentum = compared(level, kappa, "the momentum", found[0], exact[0], ulps)

@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
-from typing import Any
 
 from chapsym.cli.measured import Table
+from chapsym.files import Data
 
 from .judging import LEVELS
 
@@ -26,7 +26,7 @@ class Shown(str):
     details: str
 
 
-def shown(cell: Mapping[str, Any]) -> Shown:
+def shown(cell: Data) -> Shown:
     """The sign of a cell, and the correct digits if it is within, at most those of its numbers."""
     level, (sign, _), digits = _LEVELS[cell["rung"]], VERDICTS[cell["verdict"]], cell["digits"]
     if cell["verdict"] == "within":
@@ -41,7 +41,7 @@ def shown(cell: Mapping[str, Any]) -> Shown:
     return found
 
 
-def about(matrix: Mapping[str, Any]) -> str:
+def about(matrix: Data) -> str:
     """The meanings of the cells, and the number of each."""
     signs = "; ".join(f"{sign} {verdict}: {meaning}" for verdict, (sign, meaning) in VERDICTS.items())
     counted = ", ".join(f"{count} {verdict}" for verdict, count in matrix["counts"].items())
@@ -51,7 +51,7 @@ def about(matrix: Mapping[str, Any]) -> str:
     )
 
 
-def tables(matrix: Mapping[str, Any]) -> list[Table]:
+def tables(matrix: Data) -> list[Table]:
     """A table for each group of conditions, with the sentences of what is not within."""
     found = []
     for name, those in groupby(matrix["cells"], lambda cell: cell["group"]):
@@ -66,7 +66,7 @@ def tables(matrix: Mapping[str, Any]) -> list[Table]:
     return found
 
 
-def reasons(cells: Sequence[Mapping[str, Any]]) -> list[str]:
+def reasons(cells: Sequence[Data]) -> list[str]:
     """Why cells are not within: each sentence once, with the conditions and the precisions that it is about."""
     merged: dict[tuple[str, str], dict[str, list[str]]] = {}
     for cell in cells:
@@ -80,7 +80,7 @@ def reasons(cells: Sequence[Mapping[str, Any]]) -> list[str]:
     return found
 
 
-def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str) -> str:
+def html(matrix: Data, versions: Mapping[str, str], machine: str) -> str:
     """The whole page of the JSON object of `chapsym extremes`; the same input gives the same bytes."""
     from chapsym.report.page import style, templates
 

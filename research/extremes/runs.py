@@ -1,7 +1,6 @@
 """Runs: a few steps against a chain of the oracle's, alone and in a batch; orders, the way back; and long ones."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from chapsym.dynamics.coefficients import COMPOSITIONS
 
 from . import states
 from .judging import BUDGET, FAILED, Judged, Level, compared, mp, number, state, whole, worst
-from .truth import State, chain, promised, scaled
+from .truth import State, Vector, chain, promised, scaled
 
 #: Balls of a batch: enough, with ten steps, for the loop over blocks of balls.
 BATCH = 4096
@@ -23,7 +22,7 @@ TEN = (mp.one,) * STEPS
 RESTORED = 1024
 
 
-def ends(level: Level, given: State, stages: tuple[Any, ...], run: Trajectory) -> Judged:
+def ends(level: Level, given: State, stages: Vector, run: Trajectory) -> Judged:
     """𝒦 and γ after a run, of one ball or the first of a batch, compared with the end of the oracle's chain."""
     exact = chain(given, stages)
     last = [whole(run, name) for name in ("momentum", "gamma")]

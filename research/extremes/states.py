@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache, partial
 from math import sqrt
-from typing import Any
 
 import numpy as np
 
@@ -159,7 +158,7 @@ def conditions() -> dict[str, dict[str, Sequence[State | Callable[[Level], State
 
 
 @cache
-def starts() -> dict[str, Sequence[Any]]:
+def starts() -> dict[str, list[State]]:
     """The states of the runs."""
     return {
         "generic": [halfway()],

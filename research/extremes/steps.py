@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
+from mpmath import mpf
 
 from chapsym.dynamics import Status, StepNotTaken, fold, step, step_vertical
 
@@ -34,7 +34,7 @@ RESOLVED = 1e-6
 DIFFERENCE = mp.mpf(10) ** -15
 
 #: q, 𝒦 and γ in the numbers of a precision.
-Found = tuple[Any, Any, Any]
+Found = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def taken(level: Level, given: State) -> Found:
@@ -123,7 +123,7 @@ def fold_search(item: tuple[State, float], level: Level, quick: bool) -> Judged:
     if not np.isfinite(found.reach):
         return Judged(FAILED, reason="the reach is NaN, and nothing says why")
 
-    def at(x: Sequence[Any]) -> Any:
+    def at(x: Sequence[mpf]) -> mpf:
         return mp.make_mpf(fold_at(tuple(x[6:9]), x[9], tuple(x[:3]), tuple(x[3:6]))._mpf_)
 
     inputs = [mp.mpf(x) for x in (*given.K, *given.g, *given.J, given.D)]

@@ -8,9 +8,9 @@ is the condition number of a step, as in `chapsym.studies.check`, here from the 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
 
 import numpy as np
+from mpmath import MPContext, matrix, mpf
 
 from chapsym.dynamics import Ball, fold
 from chapsym.dynamics.oracle import Oracle, OracleFailed
@@ -55,10 +55,10 @@ class State:
 class Truth:
     """The step: Euler parameters, 𝒦 and γ after it, all mpf; and κ."""
 
-    q0: Any
-    q: list[Any]
-    momentum: list[Any]
-    gamma: list[Any]
+    q0: mpf
+    q: list[mpf]
+    momentum: list[mpf]
+    gamma: list[mpf]
     condition: float
 
 
@@ -77,7 +77,7 @@ def truth(state: State) -> Truth | None:
     return Truth(mp.convert(step.q0), q, momentum, gamma, kappa)
 
 
-def condition(state: State, oracle: Oracle, tangent: Any, extent: Any) -> float:
+def condition(state: State, oracle: Oracle, tangent: matrix, extent: mpf) -> float:
     """κ of a state whose rotation has this tangent and extent."""
     largest = sum(sorted(state.J)[-2:])
     inverse = (tangent / largest) ** -1  # of T by the largest moment, so that it is a float
@@ -86,7 +86,7 @@ def condition(state: State, oracle: Oracle, tangent: Any, extent: Any) -> float:
     return 1.0 + stretch * (float(size / (extent * largest)) if extent else 0.0) + 2 * stretch
 
 
-def unit_gamma(g: Iterable[Any]) -> list[Any]:
+def unit_gamma(g: Iterable[float]) -> list[mpf]:
     """γ divided by its length."""
     exact = [mp.mpf(x) for x in g]
     length = mp.sqrt(sum(x * x for x in exact))
@@ -100,7 +100,7 @@ def reachable(state: State) -> bool:
     K = [mp.mpf(x) for x in state.K]
     length = mp.sqrt(sum(x * x for x in K))
 
-    def along(p: Any) -> Any:
+    def along(p: Sequence[mpf]) -> mpf:
         moved = oracle.components(oracle.momentum(rotation_matrix(oracle.mp, p)))
         return sum(k * x for k, x in zip(K, moved, strict=True)) / length
 
@@ -113,7 +113,7 @@ def reachable(state: State) -> bool:
     return bool(length <= max(mp.eigsy(form, eigvals_only=True)) * (1 + mp.mpf("1e-12")))
 
 
-def rotation_matrix(context: Any, p: Sequence[Any]) -> Any:
+def rotation_matrix(context: MPContext, p: Sequence[mpf]) -> matrix:
     """The matrix of Euler parameters of any length, times its square: quadratic in them."""
     a, x, y, z = (context.mpf(v) for v in p)
     return context.matrix([
@@ -124,7 +124,7 @@ def rotation_matrix(context: Any, p: Sequence[Any]) -> Any:
 
 
 @cache
-def fold_at(J: Vector, D: float, K: Vector, g: Vector) -> Any:
+def fold_at(J: Vector, D: float, K: Vector, g: Vector) -> mpf:
     """The t at which the small-rotation branch along t𝒦 folds, as an mpf: 𝒦(q, γ) = t𝒦 and det T = 0.
 
     Solved by the oracle's matrices; `chapsym.fold` gives where to start.
@@ -135,7 +135,7 @@ def fold_at(J: Vector, D: float, K: Vector, g: Vector) -> Any:
     start = [context.mpf(float(x)) for x in near.rotation]
     largest = max(range(4), key=lambda i: abs(start[i]))
 
-    def equations(*unknown: Any) -> list[Any]:
+    def equations(*unknown: mpf) -> list[mpf]:
         *p, t = unknown
         full = [*p[:largest], start[largest], *p[largest:]]
         turned = rotation_matrix(context, full) / sum(x * x for x in full)
@@ -148,7 +148,7 @@ def fold_at(J: Vector, D: float, K: Vector, g: Vector) -> Any:
 
 
 @cache
-def chain(state: State, stages: tuple[Any, ...]) -> list[Truth]:
+def chain(state: State, stages: Vector) -> list[Truth]:
     """The oracle's steps with the momenta cᵢ𝒦, one from the other; raises ArithmeticError where there is none."""
     steps: list[Truth] = []
     for c in stages:
@@ -161,7 +161,7 @@ def chain(state: State, stages: tuple[Any, ...]) -> list[Truth]:
 
 
 @cache
-def promised(state: State, stages: tuple[Any, ...]) -> float:
+def promised(state: State, stages: Vector) -> float:
     """A Σ 4(1 + |q|κ) ulps: each step what a single one does, times A ≥ 1, what the run makes of a small change."""
     steps = chain(state, stages)
     size = max(abs(mp.mpf(x)) for x in state.K)

@@ -3,8 +3,7 @@
 All in half turns of a circle (π in the amplitude, 2K in u), with which the map commutes.
 """
 
-from typing import Any
-
+from chapsym.files import Data
 from chapsym.studies.checkout import machine
 
 from ..units import Run, run_units
@@ -33,15 +32,15 @@ DRAWN = {
 }  # fmt: skip
 
 
-def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
+def study(quick: bool = False, run: Run = run_units) -> Data:
     """All that is measured, as plain data; quick takes less than a minute."""
     planned = units(quick)
     results = iter(run([unit for section in planned.values() for unit in section]))
-    found: dict[str, Any] = {name: [next(results) for _ in section] for name, section in planned.items()}
+    found: Data = {name: [next(results) for _ in section] for name, section in planned.items()}
     return assembled(found, quick)
 
 
-def assembled(found: dict[str, Any], quick: bool) -> dict[str, Any]:
+def assembled(found: Data, quick: bool) -> Data:
     """The results of the units of each section as the data of the study."""
     host = machine()
     ball, top, plateaus = found["staircase"]

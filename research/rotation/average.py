@@ -3,14 +3,15 @@
 The mean of φ~ - φ is that of any coordinate of the circle, so that no elliptic function is needed.
 """
 
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, ctx
 
 from chapsym.dynamics import BadInput
+from chapsym.files import Data
 
-from .circle import Level, middle, number
+from .circle import Given, Level, middle, number
 from .plateau import decades, levels, text
 from .relation import Relation
 
@@ -18,7 +19,7 @@ from .relation import Relation
 SPARE = 10
 
 
-def weights(steps: int) -> list[Any]:
+def weights(steps: int) -> list[arb]:
     """exp(-1/(t(1-t))) at t = 1/(n+1), ..., n/(n+1) (Das and Yorke), of sum 1."""
     t = (arb(i) / (steps + 1) for i in range(1, steps + 1))
     found = [middle((-1 / (x * (1 - x))).exp()) for x in t]
@@ -26,7 +27,7 @@ def weights(steps: int) -> list[Any]:
     return [x * total for x in found]
 
 
-def angles(level: Level, steps: int) -> list[Any]:
+def angles(level: Level, steps: int) -> list[arb]:
     """φ~ - φ of successive steps from φ = 0."""
     gamma, found = level.point(arb(0)), []
     for _ in range(steps):
@@ -36,12 +37,12 @@ def angles(level: Level, steps: int) -> list[Any]:
     return found
 
 
-def mean(found: list[Any], steps: int) -> Any:
+def mean(found: list[arb], steps: int) -> arb:
     """The weighted average of the first `steps` angles, in half turns."""
     return middle(sum(w * x for w, x in zip(weights(steps), found, strict=False)) / arb.pi())
 
 
-def convergence(tensor: list[Any], D: Any, height: Any, level: Any, counts: list[int], digits: int) -> dict[str, Any]:
+def convergence(tensor: Sequence[Given], D: Given, height: Given, level: Given, counts: list[int], digits: int) -> Data:
     """Averages over growing numbers of steps; errors from 15-euler for D = 0, else from the longest average.
 
     Raises BadInput where there is no step.
@@ -62,7 +63,7 @@ def convergence(tensor: list[Any], D: Any, height: Any, level: Any, counts: list
         }  # fmt: skip
 
 
-def row(tensor: list[Any], D: Any, height: Any, points: int, steps: int, digits: int) -> dict[str, Any]:
+def row(tensor: Sequence[Given], D: Given, height: str, points: int, steps: int, digits: int) -> Data:
     """The rotation number in half turns, as text, on levels of equal distance; None where the branch ends.
 
     With as many digits as the average over half the steps has, which has fewer.

@@ -8,7 +8,7 @@ commutes with the map's symmetries.
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import pi
-from typing import Any
+from typing import Any, TypeVar
 
 from flint import acb, arb, ctx, fmpq
 
@@ -17,7 +17,10 @@ from chapsym.dynamics.loops.branch import TAKEN, small_rotation
 from chapsym.dynamics.loops.gibbs import bound, search
 from chapsym.generated import gibbs_newton, turn
 
-Vector = tuple[Any, Any, Any]
+Vector = tuple[arb, ...]
+#: A number as it is given: exact, or an Arb midpoint.
+Given = str | int | Fraction | arb
+Real = TypeVar("Real", arb, float)
 
 #: Bits of a float64 Newton root that Arb's iteration may count on.
 FIRST_BITS = 40
@@ -25,7 +28,7 @@ FIRST_BITS = 40
 MOST_ROUNDS = 60
 
 
-def number(x: Any) -> Any:
+def number(x: Given | float) -> arb:
     """A fraction or decimal, as text or number, as an Arb midpoint."""
     if isinstance(x, arb):
         return middle(x)
@@ -33,17 +36,17 @@ def number(x: Any) -> Any:
     return middle(arb(fmpq(x.numerator, x.denominator)))
 
 
-def middle(x: Any) -> Any:
+def middle(x: arb) -> arb:
     """A ball without its radius."""
     return arb(x.mid())
 
 
-def real(x: Any) -> Any:
+def real(x: acb) -> arb:
     """The midpoint of the real part."""
     return middle(x.real)
 
 
-def circle(moments: Sequence[Any], l: Any) -> tuple[tuple[Any, Any, Any], Any]:
+def circle(moments: Sequence[Any], l: Any) -> tuple[tuple[Any, ...], Any]:
     """C_a², C_b², C_c² of (5.8) as corrected, and the parameter k², of levels l; numbers or arrays."""
     La, Lb, Lc = moments
     low, high = 1 - Lc * l, La * l - 1
@@ -51,7 +54,7 @@ def circle(moments: Sequence[Any], l: Any) -> tuple[tuple[Any, Any, Any], Any]:
     return squares, (squares[1] - squares[0]) / squares[2]
 
 
-def solved(function: Callable[[Any], Any], first: Any, second: Any) -> Any:
+def solved(function: Callable[[arb], arb], first: Given, second: Given) -> arb:
     """A root by the secant method, to the working digits."""
     a, b = number(first), number(second)
     fa = function(a)
@@ -65,7 +68,7 @@ def solved(function: Callable[[Any], Any], first: Any, second: Any) -> Any:
     raise BadInput("the secant method found no root; next to the end of the branch take a smaller height")
 
 
-def halved(below: Callable[[Any], bool], a: Any, b: Any, rounds: int) -> tuple[Any, Any]:
+def halved(below: Callable[[Real], bool], a: Real, b: Real, rounds: int) -> tuple[Real, Real]:
     """The part of an interval, halved so often, at whose first end something holds that does not at its second."""
     for _ in range(rounds):
         c = (a + b) / 2
@@ -81,7 +84,7 @@ class Level:
     Raises BadInput where l is no circle's.
     """
 
-    def __init__(self, tensor: Sequence[Any], D: Any, height: Any, level: Any, kick: Any = 0) -> None:
+    def __init__(self, tensor: Sequence[Given], D: Given, height: Given, level: Given, kick: Given = 0) -> None:
         J = [number(x) for x in tensor]
         self.tensor, self.D, self.h, self.l, self.kick = J, number(D), number(height), number(level), number(kick)
         self.I = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
@@ -105,12 +108,12 @@ class Level:
         self.K = real(acb(self.m).elliptic_k())
         self.half = 2 * self.K
         self.complement = real(acb(1 - self.m).elliptic_k())  # K'
-        self._floats: Any = [float(x) for x in (*self.I, self.D)]
-        self._J: Any = [float(x) for x in J]
+        self._floats = [float(x) for x in (*self.I, self.D)]
+        self._J = [float(x) for x in J]
         h = float(self.h)
         self._bound = bound((h / 2, 0.0, 0.0), self._floats[:3], self._floats[3])
 
-    def point(self, phase: Any) -> Vector:
+    def point(self, phase: arb) -> Vector:
         """γ at a phase."""
         sine, gamma = phase.sin(), [arb(0)] * 3
         values = phase.cos(), sine, (1 - self.m * sine * sine).sqrt()
@@ -118,7 +121,7 @@ class Level:
             gamma[axis] = middle(size * value)
         return gamma[0], gamma[1], gamma[2]
 
-    def direction(self, gamma: Vector) -> tuple[Any, Any]:
+    def direction(self, gamma: Vector) -> tuple[arb, arb]:
         """(cos φ, sin φ) of γ, up to a positive factor."""
         a, b, _ = self.axes
         return gamma[a] / self.amplitudes[0], gamma[b] / self.amplitudes[1]
@@ -127,15 +130,15 @@ class Level:
         """G_h(γ); for a perturbed top then φ is turned on to φ + τ sin 2φ on the same level."""
         k = tuple(self.h * x / 2 for x in gamma)
         u = self._root(k, gamma)
-        moved: Any = tuple(middle(x + d) for x, d in zip(gamma, turn(*(1, *u, *gamma)), strict=True))
+        moved = tuple(middle(x + d) for x, d in zip(gamma, turn(*(1, *u, *gamma)), strict=True))
         return self._kicked(moved) if self.kick != 0 else moved
 
-    def _kicked(self, gamma: Any) -> Vector:
+    def _kicked(self, gamma: Vector) -> Vector:
         c, s = self.direction(gamma)
         phase = arb.atan2(s, c)
         return self.point(middle(phase + self.kick * (2 * phase).sin()))
 
-    def _root(self, k: Any, gamma: Vector) -> Any:
+    def _root(self, k: Vector, gamma: Vector) -> Vector:
         """The Gibbs vector: Newton's iteration in Arb from the float64 root on the small-rotation branch."""
         u = tuple(map(arb, self._near([float(x) for x in k], [float(x) for x in gamma])))
         bits = FIRST_BITS
@@ -150,23 +153,23 @@ class Level:
             raise BadInput("Newton's iteration did not settle on the root of a step")
         return u
 
-    def _near(self, k: Any, gamma: Any) -> Any:
+    def _near(self, k: list[float], gamma: list[float]) -> tuple[float, ...]:
         if self._bound[0] >= 0.0:
             settled, _, u = search((0.0, 0.0, 0.0), k, gamma, self._floats[:3], self._floats[3], *self._bound)
             if settled:
                 return u
-        given: Any = (*(2 * x for x in k), *gamma, *self._J, self._floats[3])
+        given = (*(2 * x for x in k), *gamma, *self._J, self._floats[3])
         status, _, q0, *q = small_rotation(*given)
         if status != TAKEN or q0 < 1e-6:
             raise BadInput(f"the small-rotation branch ends before the height {float(self.h):.6g}")
         return tuple(x / q0 for x in q)
 
-    def turned(self, gamma: Vector, after: Vector) -> Any:
+    def turned(self, gamma: Vector, after: Vector) -> arb:
         """The angle φ~ - φ between successive γ, in (-π, π)."""
         (c, s), (x, y) = self.direction(gamma), self.direction(after)
         return middle(arb.atan2(c * y - s * x, c * x + s * y))
 
-    def argument(self, phase: Any) -> Any:
+    def argument(self, phase: arb) -> arb:
         """u = F(φ, m), going on from turn to turn; next to π/2, where Arb's reduction is torn, by K - F."""
         turns = round(float(phase) / pi)
         rest = middle(phase - turns * arb.pi())
@@ -178,16 +181,16 @@ class Level:
             part = part if s > 0 else -part
         return middle(part + turns * self.half)
 
-    def _first_kind(self, phase: Any) -> Any:
+    def _first_kind(self, phase: arb) -> arb:
         return real(acb.elliptic_f(acb(phase), acb(self.m)))
 
-    def amplitude(self, u: Any) -> Any:
+    def amplitude(self, u: arb) -> arb:
         """φ = am u, by theta functions, going on from turn to turn."""
         turns = round(float(u / self.half))
         sn, cn, _ = self.jacobi(u - turns * self.half)
         return middle(arb.atan2(sn, cn) + turns * arb.pi())
 
-    def jacobi(self, u: Any) -> tuple[Any, Any, Any]:
+    def jacobi(self, u: arb) -> tuple[arb, arb, arb]:
         """sn, cn, dn of u, by theta functions."""
         tau = acb(0, middle(self.complement / self.K))
         zero = acb.modular_theta(acb(0), tau)
@@ -196,7 +199,7 @@ class Level:
         s1, s2, s3, s4 = (real(x) for x in theta)
         return middle(t3 * s1 / (t2 * s4)), middle(t4 * s2 / (t2 * s4)), middle(t4 * s3 / (t3 * s4))
 
-    def lift(self, phase: Any, steps: int) -> Any:
+    def lift(self, phase: arb, steps: int) -> arb:
         """The phase after this many steps, going on from turn to turn."""
         gamma, total = self.point(phase), float(phase)
         for _ in range(steps):
@@ -207,7 +210,7 @@ class Level:
         end = middle(arb.atan2(s, c))
         return end + 2 * arb.pi() * round((total - float(end)) / (2 * pi))
 
-    def displacement(self, phase: Any, steps: int, half_turns: int) -> Any:
+    def displacement(self, phase: Given, steps: int, half_turns: int) -> arb:
         """(G^q(u) - u)/2K - p, in half turns, of the orbit that starts at a phase."""
         start = number(phase)
         moved = self.argument(self.lift(start, steps)) - self.argument(start)

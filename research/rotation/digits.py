@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 from statistics import median
 from time import process_time
-from typing import Any
 
 from flint import arb, ctx
 
 from chapsym.dynamics import BadInput
+from chapsym.files import Data
 
-from .circle import Level, number
+from .circle import Given, Level, number
 from .plateau import decades, plateau, symmetric_starts
 
 #: Digits above those that the displacement has, from which the search for the fewest goes down; and where it ends.
@@ -18,15 +18,13 @@ ABOVE, FEWEST = 15, 4
 TIMED, REPEATS = 60, 5
 
 
-def measured(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, in_height: bool = False
-) -> dict[str, Any]:
+def measured(tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, in_height: bool = False) -> Data:
     """`plateau`, with the fewest working digits at which it is seen."""
     found = plateau(tensor, D, height, steps, turns, in_height)
     return {**found, "needed": needed(found)}
 
 
-def needed(found: dict[str, Any]) -> int:
+def needed(found: Data) -> int:
     """The fewest digits from which on the two displacements are seen: each off by less than half of it."""
     digits = ABOVE - decades(abs(number(found["displacement"][0])))
     while digits > FEWEST and seen(found, digits - 1):
@@ -34,7 +32,7 @@ def needed(found: dict[str, Any]) -> int:
     return digits
 
 
-def seen(found: dict[str, Any], digits: int) -> bool:
+def seen(found: Data, digits: int) -> bool:
     """Whether both symmetric orbits are displaced as they should be, computed with this many digits."""
     with ctx.workdps(digits):
         level = Level(found["tensor"], found["D"], found["height"], found["level"])
@@ -47,7 +45,7 @@ def seen(found: dict[str, Any], digits: int) -> bool:
     return all(abs(x - y) < abs(y) / 2 for x, y in zip(got, true, strict=True))
 
 
-def times(tensor: Sequence[Any], D: Any, height: Any, level: Any, digits: Sequence[int]) -> list[dict[str, Any]]:
+def times(tensor: Sequence[Given], D: Given, height: Given, level: Given, digits: Sequence[int]) -> list[Data]:
     """Seconds of a processor for a step on the sphere at this many digits: the median of some runs."""
     found = []
     for n in digits:

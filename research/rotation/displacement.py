@@ -1,11 +1,12 @@
 """The displacement of G^q over the circle at a resonance, at many digits, and its Fourier coefficients."""
 
 from collections.abc import Sequence
-from typing import Any
 
 from flint import acb, arb, ctx
 
-from .circle import Level, middle, number, solved
+from chapsym.files import Data
+
+from .circle import Given, Level, middle, number, solved
 from .plateau import resonance, symmetric_starts, text
 from .relation import Relation
 
@@ -13,7 +14,9 @@ from .relation import Relation
 COMPARED = 3
 
 
-def middle_level(tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, kick: Any, samples: int) -> Any:
+def middle_level(
+    tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, kick: Given, samples: int
+) -> arb:
     """The level in the middle of the plateau, to the working digits.
 
     There the two symmetric orbits are displaced by opposite amounts; a perturbed top, which has no reversor, has the
@@ -22,22 +25,20 @@ def middle_level(tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: 
     near, _, _ = resonance(tensor, D, height, steps, turns, kick)
     phases = starts(Level(tensor, D, height, near, kick), samples)
 
-    def off(l: Any) -> Any:
+    def off(l: arb) -> arb:
         level = Level(tensor, D, height, l, kick)
-        return sum(
-            level.displacement(x, steps, turns)
-            for x in (phases if number(kick) != 0 else symmetric_starts(level, steps))
-        )
+        of = phases if number(kick) != 0 else symmetric_starts(level, steps)
+        return arb(sum(level.displacement(x, steps, turns) for x in of))
 
     return solved(off, near, number(near) * (1 + arb(10) ** -15))
 
 
-def starts(level: Level, samples: int) -> list[Any]:
+def starts(level: Level, samples: int) -> list[arb]:
     """The phases of u = 2Ki/n."""
     return [level.amplitude(level.half * i / samples) for i in range(samples)]
 
 
-def spectrum(values: Sequence[Any]) -> list[tuple[Any, Any]]:
+def spectrum(values: Sequence[arb]) -> list[tuple[arb, arb]]:
     """(c_j, s_j), j = 0, ..., n/2 of Σ c_j cos 2πji/n + s_j sin 2πji/n."""
     n = len(values)
     sizes = [arb(1) / n if j in (0, n // 2) else arb(2) / n for j in range(n // 2 + 1)]
@@ -46,8 +47,8 @@ def spectrum(values: Sequence[Any]) -> list[tuple[Any, Any]]:
 
 
 def displacement(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, digits: int, samples: int, kick: Any = 0
-) -> dict[str, Any]:
+    tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, digits: int, samples: int, kick: Given = 0
+) -> Data:
     """(G^q(u) - u)/2K - p at u = 2Ki/n, in the middle of the plateau, and its Fourier coefficients in jπu/K.
 
     values, cosines, sines: decimal strings, in half turns; routes: the greatest difference from the displacement by
@@ -60,7 +61,7 @@ def displacement(
         phases = starts(level, samples)
         values = [level.displacement(x, steps, turns) for x in phases]
         coefficients = spectrum(values)
-        found: dict[str, Any] = {
+        found: Data = {
             "tensor": list(map(str, tensor)), "D": str(D), "height": str(height), "kick": str(kick), "steps": steps,
             "half_turns": turns, "digits": digits, "level": text(l, digits - 5), "values": [text(x) for x in values],
             "cosines": [text(c, 6) for c, _ in coefficients], "sines": [text(s, 6) for _, s in coefficients],
@@ -71,7 +72,7 @@ def displacement(
         return found
 
 
-def second_route(level: Level, phases: list[Any], values: list[Any], steps: int, turns: int) -> dict[str, Any]:
+def second_route(level: Level, phases: list[arb], values: list[arb], steps: int, turns: int) -> Data:
     """The distances of (5.15) and its chord form from the result on the sphere, in half turns."""
     relation = Relation(level)
     chosen = range(0, len(phases), max(1, len(phases) // COMPARED))

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from chapsym.files import Data
 from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
 from .words import decimal, log10, named, scaled
@@ -15,7 +16,7 @@ GREY = "0.45"
 DRAWN = 600
 
 
-def displacement(found: dict[str, Any]) -> Picture:
+def displacement(found: Data) -> Picture:
     """The displacement at a resonance: of the ball, of D = 0 at all digits, of a perturbed top; and the spectra."""
     ball, top, kicked = found["displacement"][:3]
     figure, axes = new("", 2, 2, height=3.7, width=WIDE)
@@ -54,7 +55,7 @@ def displacement(found: dict[str, Any]) -> Picture:
     return figure
 
 
-def continued(case: dict[str, Any], power: int) -> tuple[Any, Any]:
+def continued(case: Data, power: int) -> tuple[np.ndarray, np.ndarray]:
     """The trigonometric polynomial through the values, in units of 10^power."""
     x = np.linspace(0, 1, DRAWN + 1)
     cosines, sines = (np.array(scaled(case[name], power)) for name in ("cosines", "sines"))
@@ -62,12 +63,12 @@ def continued(case: dict[str, Any], power: int) -> tuple[Any, Any]:
     return x, np.cos(angle) @ cosines + np.sin(angle) @ sines
 
 
-def power_of(case: dict[str, Any]) -> int:
+def power_of(case: Data) -> int:
     """The power of ten of the largest displacement."""
     return int(np.floor(max(log10(x) for x in case["values"])))
 
 
-def numbers(found: dict[str, Any]) -> Picture:
+def numbers(found: Data) -> Picture:
     """How fast the weighted averages converge, and the rotation number over levels and heights."""
     figure, axes = new("", 2, 2, height=4.0, width=WIDE)
     for case, colour, marker in zip(found["convergence"], COLOURS, "os^", strict=False):

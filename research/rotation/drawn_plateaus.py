@@ -1,11 +1,12 @@
 """Figures of the plateaus: the staircase, their widths with the law, and the digits that they need."""
 
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter, ScalarFormatter
 
+from chapsym.files import Data
 from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
 from .drawn_circle import continued, power_of
@@ -19,7 +20,7 @@ FLOAT64 = -15.95
 SMALL = 0.25
 
 
-def staircase(found: dict[str, Any]) -> Picture:
+def staircase(found: Data) -> Picture:
     """ρ(l) of the ball and of the perturbed top; below, the widths of their plateaus on one logarithmic scale."""
     figure, axes = new("", 2, 2, height=3.7, width=WIDE, sharex="col")
     ball, top = found["staircase"]["ball"], found["staircase"]["top"]
@@ -52,7 +53,7 @@ def staircase(found: dict[str, Any]) -> Picture:
     return figure
 
 
-def _steps(axis: Any, top: dict[str, Any]) -> None:
+def _steps(axis: Axes, top: Data) -> None:
     """The plateaus of the top, drawn thick, and the names of the widest."""
     named_ones = sorted(top["plateaus"], key=lambda p: p["edges"][0] - p["edges"][1])[:6]
     for p in top["plateaus"]:
@@ -70,7 +71,7 @@ def _steps(axis: Any, top: dict[str, Any]) -> None:
         )
 
 
-def _inset(axis: Any, found: dict[str, Any]) -> None:
+def _inset(axis: Axes, found: Data) -> None:
     """The plateau at 1/8, magnified until it is seen: G⁸ is next to the identity there, the time of a flow."""
     case = next(x for x in found["displacement"] if x["steps"] == 8)
     slope = next(float(x["slope"]) for x in found["farey"] if (x["half_turns"], x["steps"]) == (1, 8))
@@ -92,7 +93,7 @@ def _inset(axis: Any, found: dict[str, Any]) -> None:
     axis.annotate("1/8", (middle, 1 / 8), (-6, 4), textcoords="offset points", ha="right", fontsize=9.5)
 
 
-def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str, largest: int) -> None:
+def _stems(axis: Axes, seen: list[tuple[int, int, float, float]], colour: str, largest: int) -> None:
     """Widths over levels; those with a small q, at most `largest`, are named."""
     for p, q, level, width in seen:
         axis.plot([level, level], [-200, width], color=colour, linewidth=1.1, alpha=0.35)
@@ -101,7 +102,7 @@ def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str, la
             axis.annotate(f"{p}/{q}", (level, width), (0, 5), textcoords="offset points", ha="center", fontsize=8.5)
 
 
-def widths(found: dict[str, Any]) -> Picture:
+def widths(found: Data) -> Picture:
     """Widths against q near one rotation number, with the law; against D; and what is measured, with the law."""
     figure, axes = new("", 2, 2, height=3.7, width=WIDE)
     _against_q(axes[0], found["fifth"])
@@ -110,7 +111,7 @@ def widths(found: dict[str, Any]) -> Picture:
     return figure
 
 
-def _against_q(axis: Any, found: list[dict[str, Any]]) -> None:
+def _against_q(axis: Axes, found: list[Data]) -> None:
     contacts = list(dict.fromkeys(x["D"] for x in found))
     for D, colour, marker in zip(contacts, COLOURS, "osD^v", strict=False):
         rows = sorted((x for x in found if x["D"] == D), key=lambda x: x["steps"])
@@ -123,7 +124,7 @@ def _against_q(axis: Any, found: list[dict[str, Any]]) -> None:
     axis.legend(loc="lower left")
 
 
-def _against_D(axis: Any, below: Any, found: list[dict[str, Any]]) -> None:
+def _against_D(axis: Axes, below: Axes, found: list[Data]) -> None:
     for q, colour, marker in zip(sorted({x["steps"] for x in found}), COLOURS, "osD^", strict=False):
         rows = sorted((x for x in found if x["steps"] == q), key=lambda x: Fraction(x["D"]))
         D = [float(Fraction(x["D"])) for x in rows]
@@ -145,7 +146,7 @@ def _against_D(axis: Any, below: Any, found: list[dict[str, Any]]) -> None:
     below.legend(loc="lower right")
 
 
-def _one_half_turn(axis: Any, found: list[dict[str, Any]]) -> None:
+def _one_half_turn(axis: Axes, found: list[Data]) -> None:
     cases = list(dict.fromkeys(named(x) for x in found))
     for case, colour, marker in zip(cases, COLOURS, "osD^", strict=False):
         rows = [x for x in found if named(x) == case]
@@ -162,7 +163,7 @@ def _one_half_turn(axis: Any, found: list[dict[str, Any]]) -> None:
     axis.legend(loc="lower right", fontsize=8.5)
 
 
-def digits(found: dict[str, Any]) -> Picture:
+def digits(found: Data) -> Picture:
     """The digits at which each plateau is first seen, and the time of a step against the number of digits."""
     figure, axes = new("", 1, 2, height=4.2, width=WIDE)
     seen = [

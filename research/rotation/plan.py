@@ -1,7 +1,8 @@
 """The measurements, quick and full, as independent units of work."""
 
 from math import gcd
-from typing import Any
+
+from chapsym.files import Data
 
 from ..units import Unit
 
@@ -23,7 +24,7 @@ INSIDE = 0.02, 0.98
 #: Plateaus of the staircases: q to this.
 LARGEST = 24
 #: The runs of displacements over a circle; four of them in the quick mode.
-DISPLACED: tuple[dict[str, Any], ...] = (
+DISPLACED: tuple[Data, ...] = (
     {**BALL, "steps": 9, "digits": 60},
     {**BALL, "D": "0", "steps": 9, "digits": 60},
     {**BALL, "D": "0", "kick": WEAK, "steps": 9, "digits": 60},
@@ -101,7 +102,7 @@ def units(quick: bool) -> dict[str, list[Unit]]:
     }
 
 
-def _plateau(case: dict[str, Any], steps: int, turns: int, in_height: bool = False) -> Unit:
+def _plateau(case: Data, steps: int, turns: int, in_height: bool = False) -> Unit:
     return Unit(f"{HERE}.digits:measured", {**case, "steps": steps, "turns": turns, "in_height": in_height})
 
 

@@ -7,13 +7,13 @@ of u = 0 and of the chord whose mean is ū = 0.
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
 
 from flint import arb, ctx
 
 from chapsym.dynamics import BadInput
+from chapsym.files import Data
 
-from .circle import Level, halved, middle, number, solved
+from .circle import Given, Level, halved, middle, number, solved
 from .relation import Relation
 
 #: Digits by which the level is known better than the plateau is wide, and the fewest digits.
@@ -22,40 +22,40 @@ SPARE, FEWEST = 25, 50
 COARSE, SEARCHED = 20, 48
 
 
-def text(x: Any, digits: int = 12) -> str:
+def text(x: arb, digits: int = 12) -> str:
     """A number in decimal."""
     return str(middle(x).str(digits, radius=False))
 
 
-def decades(x: Any) -> int:
+def decades(x: arb) -> int:
     """The decimal logarithm of a positive number, rounded down."""
     return int(float(x.log()) // 2.302585092994046)
 
 
-def symmetric_starts(level: Level, steps: int) -> tuple[Any, Any]:
+def symmetric_starts(level: Level, steps: int) -> tuple[arb, arb]:
     """The phases of the two symmetric orbits of q steps."""
     if steps % 2:
         return arb(0), middle(arb.pi() / 2)
 
-    def closed(phase: Any) -> Any:
+    def closed(phase: arb) -> arb:
         return level.lift(phase, 1) + phase
 
     guess = -level.lift(arb(0), 1) / 2
     return arb(0), solved(closed, guess, guess * arb("0.99"))
 
 
-def levels(tensor: Sequence[Any], D: Any) -> tuple[Any, Any]:
+def levels(tensor: Sequence[Given], D: Given) -> tuple[arb, arb]:
     """The range of l around the outer axis: (1/Λ_b, greatest 1/Λ)."""
     J = [number(x) for x in tensor]
     _, low, high = sorted((1 / (sum(J) - x + number(D)) for x in J), key=float)
     return low, high
 
 
-def bracket(off: Callable[[Any], Any], low: Any, high: Any) -> Any:
+def bracket(off: Callable[[arb], arb], low: arb, high: arb) -> tuple[arb, arb] | None:
     """Two levels near each other between which the rotation number passes p/q, found at few digits; None if there are
     none.
     """
-    before: Any = None
+    before: tuple[arb, bool] | None = None
     for i in range(1, SEARCHED):
         l = low + (high - low) * i * i / SEARCHED**2
         try:
@@ -70,12 +70,12 @@ def bracket(off: Callable[[Any], Any], low: Any, high: Any) -> Any:
 
 
 def resonance(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, kick: Any = 0
-) -> tuple[Any, Any, int]:
+    tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, kick: Given = 0
+) -> tuple[arb, arb, int]:
     """(l, width by the law, digits to work with) near a resonance, at few digits."""
     with ctx.workdps(COARSE):
 
-        def off(l: Any) -> Any:
+        def off(l: arb) -> arb:
             return Level(tensor, D, height, l, kick).displacement(0, steps, turns)
 
         ends = bracket(off, *levels(tensor, D))
@@ -90,9 +90,7 @@ def resonance(
     return l, width, max(FEWEST, SPARE - decades(width))
 
 
-def plateau(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, in_height: bool = False
-) -> dict[str, Any]:
+def plateau(tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, in_height: bool = False) -> Data:
     """Edges, middle, displacement and law of one plateau; numbers as decimal strings.
 
     width: in l; width_in_height: in h at the middle level; displacement: that of the symmetric orbits in the middle, in
@@ -101,7 +99,7 @@ def plateau(
     near, _, digits = resonance(tensor, D, height, steps, turns)
     with ctx.workdps(digits):
 
-        def off(which: int, l: Any, h: Any = height) -> Any:
+        def off(which: int, l: arb, h: Given = height) -> arb:
             level = Level(tensor, D, h, l)
             return level.displacement(symmetric_starts(level, steps)[which], steps, turns)
 

@@ -1,12 +1,13 @@
 """ρ(l) of many levels at once in float64, and the plateaus of a perturbed top, which float64 sees."""
 
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.ball import Floats
+from chapsym.files import Data
 from chapsym.generated import gibbs_newton, turn
 
 from .circle import circle, halved
@@ -20,7 +21,7 @@ SAMPLES, HALVINGS = 24, 46
 class Levels:
     """Levels l (n,) around the outer axis, G_h on each and a kick φ ↦ φ + τ sin 2φ after it: as `Level`, in float64."""
 
-    def __init__(self, tensor: Any, D: float, height: float, l: Any, kick: float = 0.0) -> None:
+    def __init__(self, tensor: list[int], D: float, height: float, l: ArrayLike, kick: float = 0.0) -> None:
         J = np.array([float(x) for x in tensor])
         self.I, self.D, self.h, self.kick = tuple(J.sum() - J), float(D), float(height), float(kick)
         moments = J.sum() - J + self.D
@@ -33,7 +34,7 @@ class Levels:
         sense = -1.0 if (self.axes[1] - self.axes[0]) % 3 == 1 else 1.0
         self.sizes = np.sqrt(squares[0]), sense * np.sqrt(squares[1]), np.sqrt(squares[2])
 
-    def angles(self, phase: Any, steps: int) -> Floats:
+    def angles(self, phase: ArrayLike, steps: int) -> Floats:
         """φ~ - φ of successive steps from phases that go with the levels, (steps, n)."""
         phase = np.broadcast_to(phase, np.broadcast_shapes(np.shape(phase), self.m.shape))
         found = np.empty((steps, *phase.shape))
@@ -44,13 +45,13 @@ class Levels:
         return found
 
     def _stepped(self, phase: Floats) -> Floats:
-        g: list[Any] = [None] * 3
         sine = np.sin(phase)
+        g = [sine] * 3
         values = np.cos(phase), sine, np.sqrt(1 - self.m * sine * sine)
         for axis, size, value in zip(self.axes, self.sizes, values, strict=True):
             g[axis] = size * value
         k = [self.h / 2 * x for x in g]
-        u: Any = (0.0, 0.0, 0.0)
+        u: tuple[Floats | float, ...] = (0.0, 0.0, 0.0)
         for _ in range(ROUNDS):
             p0, p1, p2, p3, *_ = gibbs_newton(*(*u, *k, *g, *self.I, self.D))
             u = p1 / p0, p2 / p0, p3 / p0
@@ -60,7 +61,7 @@ class Levels:
         return np.asarray(moved + self.kick * np.sin(2 * moved))
 
 
-def rotation_numbers(tensor: Any, D: float, height: float, l: Any, steps: int, kick: float = 0.0) -> Floats:
+def rotation_numbers(tensor: list[int], D: float, height: float, l: ArrayLike, steps: int, kick: float = 0.0) -> Floats:
     """Half turns a step on each level, by a weighted Birkhoff average."""
     t = np.arange(1, steps + 1) / (steps + 1)
     weights = np.exp(-1.0 / (t * (1.0 - t)))
@@ -68,9 +69,7 @@ def rotation_numbers(tensor: Any, D: float, height: float, l: Any, steps: int, k
     return np.asarray(weights @ found / weights.sum() / np.pi)
 
 
-def curve(
-    tensor: list[Any], D: str, height: str, kick: str, inside: list[float], points: int, steps: int
-) -> dict[str, Any]:
+def curve(tensor: list[int], D: str, height: str, kick: str, inside: list[float], points: int, steps: int) -> Data:
     """ρ on levels of equal distance in a part of the range around the outer axis."""
     d, h, tau = _floats(D, height, kick)
     l = np.linspace(*_range(tensor, d, inside), points)
@@ -86,7 +85,7 @@ def curve(
 
 
 def edges(
-    tensor: list[Any], D: float, height: float, steps: int, turns: int, low: float, high: float, kick: float
+    tensor: list[int], D: float, height: float, steps: int, turns: int, low: float, high: float, kick: float
 ) -> list[float] | None:
     """The plateau of p/q between two levels, where ρ grows: no point, then every point goes on by more than p.
 
@@ -105,8 +104,8 @@ def edges(
 
 
 def plateaus(
-    tensor: list[Any], D: str, height: str, kick: str, inside: list[float], fractions: list[list[int]]
-) -> list[dict[str, Any]]:
+    tensor: list[int], D: str, height: str, kick: str, inside: list[float], fractions: list[list[int]]
+) -> list[Data]:
     """The edges of the plateaus of p/q in half turns, in l."""
     d, h, tau = _floats(D, height, kick)
     low, high = _range(tensor, d, inside)
@@ -122,7 +121,7 @@ def _floats(*texts: str) -> tuple[float, ...]:
     return tuple(float(Fraction(x)) for x in texts)
 
 
-def _range(tensor: list[Any], D: float, inside: list[float]) -> tuple[float, float]:
+def _range(tensor: list[int], D: float, inside: list[float]) -> tuple[float, float]:
     J = np.array([float(x) for x in tensor])
     middle, high = np.sort(1 / (J.sum() - J + D))[1:]
     return float(middle + inside[0] * (high - middle)), float(middle + inside[1] * (high - middle))

@@ -3,7 +3,8 @@
 import math
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+
+from chapsym.files import Data
 
 
 def log10(text: str) -> float:
@@ -17,7 +18,7 @@ def scaled(texts: list[str], power: int) -> list[float]:
     return [float(Decimal(x).scaleb(-power)) for x in texts]
 
 
-def named(case: dict[str, Any], *names: str) -> str:
+def named(case: Data, *names: str) -> str:
     """ "J = (1, 2, 4), D = 7, h = 12/5"."""
     parts = {"J": "(" + ", ".join(map(str, case["tensor"])) + ")", "D": case["D"], "h": case["height"]}
     return ", ".join(f"{name} = {parts[name]}" for name in names or ("J", "D", "h"))
@@ -28,12 +29,12 @@ def decimal(text: str) -> str:
     return f"{float(Fraction(text)):g}"
 
 
-def sentences(found: dict[str, Any]) -> list[str]:
+def sentences(found: Data) -> list[str]:
     """Terse sentences with their figures."""
     return [*_plateaus(found), *_law(found), *_displacements(found["displacement"]), *_averages(found["convergence"])]
 
 
-def _averages(cases: list[dict[str, Any]]) -> list[str]:
+def _averages(cases: list[Data]) -> list[str]:
     return [
         f"{named(case)}, l = {case['level']}: ρ = {case['rotation_number'][:24]}... half turns a step, "
         f"{-log10(case['errors'][-1]):.0f} digits from {case['steps'][-1]} steps"
@@ -42,7 +43,7 @@ def _averages(cases: list[dict[str, Any]]) -> list[str]:
     ]
 
 
-def _displacements(cases: list[dict[str, Any]]) -> list[str]:
+def _displacements(cases: list[Data]) -> list[str]:
     found = []
     for case in cases:
         size = max(log10(x) for x in case["values"])
@@ -60,7 +61,7 @@ def _displacements(cases: list[dict[str, Any]]) -> list[str]:
     return found
 
 
-def _plateaus(found: dict[str, Any]) -> list[str]:
+def _plateaus(found: Data) -> list[str]:
     rows = [x for name in ("turns", "fifth", "small_D", "farey") for x in found[name]]
     widths = [log10(x["width"]) for x in rows]
     needed = [x["needed"] for x in rows]
@@ -79,7 +80,7 @@ def power(exponent: float) -> str:
     return f"{10 ** (exponent - whole):.1f}e{whole}"
 
 
-def _law(found: dict[str, Any]) -> list[str]:
+def _law(found: Data) -> list[str]:
     rows = found["small_D"]
     least = min((x["D"] for x in rows), key=Fraction)
     parts = ", ".join(f"{x['ratio']:.6f} (q = {x['steps']})" for x in rows if x["D"] == least)
