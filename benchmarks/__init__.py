@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any
 
 from .harness import Contender, NotComparable, Timing
 from .results import Curve, Reached, Result
@@ -22,7 +21,7 @@ SECTIONS = DEFAULT = (
 DRAWN = ("work-precision", "long")
 
 
-def run(section: str, quick: bool, on_round: Callable[[str], None] = lambda text: None, **own: Any) -> Result:
+def run(section: str, quick: bool, on_round: Callable[[str], None] = lambda text: None, **own: object) -> Result:
     """Measures one section; `quick` takes seconds.  Raises NotComparable where two sides disagree.
 
     own: of the section `trajectory`, the ball and its start, as `trajectory.Start`.

@@ -4,13 +4,12 @@ import time
 from collections.abc import Callable
 from functools import partial
 from itertools import product
-from typing import Any
 
 import numpy as np
 
 import chapsym
 
-from .harness import Contender, NotComparable, cores, interleaved
+from .harness import Contender, NotComparable, Run, cores, interleaved
 from .results import Reached, Result, beside
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
@@ -23,7 +22,7 @@ PLAIN, STEPPER, FRAMES = "chapsym.trajectory", "Stepper.step", "Stepper.trajecto
 STEP, LOOP = "chapsym.step", "Stepper: momentum, step, momentum and gamma"
 
 
-def repeated(name: str, run: Callable[[], Any], seconds: float) -> Contender:
+def repeated(name: str, run: Run, seconds: float) -> Contender:
     """As many calls in a row as take this many seconds."""
 
     def calls(count: int) -> None:
@@ -37,11 +36,11 @@ def repeated(name: str, run: Callable[[], Any], seconds: float) -> Contender:
     return Contender(name, partial(calls, count), count, time.thread_time)
 
 
-def sides(steps: int, contact: bool) -> dict[str, Callable[[], Any]]:
+def sides(steps: int, contact: bool) -> dict[str, Run]:
     """A call of `steps` steps by each way; those of a Stepper go on from where it is."""
     ball, K = chapsym.Ball(MASS_TENSOR, D, RADIUS), EPSILON * MOMENTUM
     moved, framed, looped = (chapsym.Stepper(ball, K, GAMMA, contact=contact) for _ in range(3))
-    found: dict[str, Callable[[], Any]] = {
+    found: dict[str, Run] = {
         PLAIN: partial(chapsym.trajectory, ball, K, GAMMA, steps, contact=contact),
         STEPPER: partial(moved.step, steps),
         FRAMES: partial(framed.trajectory, steps),

@@ -5,11 +5,12 @@ What a section finds has a `title`, the rows of a `table()`, `sentences()` under
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from types import ModuleType
 
 import benchmarks
 from chapsym.cli import measured
 from chapsym.cli.output import check_known, console_for, fail, print_json, quiet, say
+from chapsym.files import Data
 from chapsym.numbers import in_words
 from chapsym.studies.checkout import machine, save_figures
 
@@ -21,9 +22,9 @@ FIGURES = (".svg", ".png", ".pdf")
 
 
 def measure(
-    sections: Sequence[str], quick: bool, output: Path | None, as_json: bool, study: Any = benchmarks,
-    hint: str = "", **own: Any,
-) -> dict[str, Any]:  # fmt: skip
+    sections: Sequence[str], quick: bool, output: Path | None, as_json: bool, study: ModuleType = benchmarks,
+    hint: str = "", **own: object,
+) -> Data:  # fmt: skip
     """Measures the sections of a study, or the default; fails with a sentence as every command does.
 
     hint: what is said of a section that is not there.  own: one's own ball, of `benchmarks`.
@@ -33,7 +34,7 @@ def measure(
     page = measured.is_page(output)
     if output is not None and not page:
         _check_figure(output, wanted, study.DRAWN)
-    results: dict[str, Any] = {}
+    results: Data = {}
     for name in wanted:
         try:
             results[name] = study.run(name, quick, say, **own)
@@ -71,17 +72,17 @@ def _check_figure(output: Path, sections: Iterable[str], drawn: Iterable[str]) -
     files.check_destination(output)
 
 
-def plain(results: dict[str, Any], quick: bool) -> dict[str, Any]:
+def plain(results: Data, quick: bool) -> Data:
     """The machine and all that was measured, as plain data."""
     sections = {name: one.as_json() for name, one in results.items()}
     return {"machine": machine(), "quick": quick, "sections": sections}
 
 
-def _tables(results: dict[str, Any]) -> list[measured.Table]:
+def _tables(results: Data) -> list[measured.Table]:
     return [measured.Table(one.title, one.table(), [*map(in_words, one.sentences())]) for one in results.values()]
 
 
-def _goals(results: dict[str, Any]) -> list[measured.Table]:
+def _goals(results: Data) -> list[measured.Table]:
     """The table of what was to be reached, if anything was."""
     rows = [
         {"section": name, "figure": one.what, "measured": one.value, "wanted": one.bound, "reached": one.met}
@@ -92,7 +93,7 @@ def _goals(results: dict[str, Any]) -> list[measured.Table]:
     return [measured.Table("What was set out to be reached", rows)] if rows else []
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     if value is None:
         return "-"
     if isinstance(value, bool):

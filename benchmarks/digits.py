@@ -1,8 +1,7 @@
 """Many digits: a step of one ball in `Digits`, and Newton's iteration in the Gibbs vector on mpmath's numbers."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 from mpmath import mp, mpf
@@ -20,14 +19,14 @@ EPSILON = 0.05
 CHAPSYM, PEER = "chapsym", "mpmath, Newton in u"
 
 
-def with_chapsym(digits: int, steps: int) -> tuple[Any, Any]:
+def with_chapsym(digits: int, steps: int) -> tuple[np.ndarray, np.ndarray]:
     """The last (𝒦, γ)."""
     ball, precision = chapsym.Ball(MASS_TENSOR, D), chapsym.Digits(digits)
     run = chapsym.trajectory(ball, EPSILON * MOMENTUM, GAMMA, steps, every=steps, precision=precision)
     return run.momentum[-1], run.gamma[-1]
 
 
-def with_mpmath(digits: int, steps: int) -> tuple[Any, Any]:
+def with_mpmath(digits: int, steps: int) -> tuple[Sequence[mpf], Sequence[mpf]]:
     """The same, from the last step's u, with a Newton iterate more for each doubling of the digits."""
     with mp.workdps(digits + 10):
         K, g, J = ([mpf(float(x)) for x in v] for v in (EPSILON * MOMENTUM, GAMMA, MASS_TENSOR))

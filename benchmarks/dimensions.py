@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 import chapsym
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.branch_n import small_rotation
+from chapsym.files import Data
 
 from .harness import NotComparable
 from .results import Reached, Result, beside, timed
@@ -54,14 +54,14 @@ def continued(n: int, steps: int, balls: int = 1) -> np.ndarray:
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times one ball, one with its contact point, and a batch, on one core; the ends are compared before."""
-    rounds, rows = 3 if quick else 9, list[dict[str, Any]]()
+    rounds, rows = 3 if quick else 9, list[Data]()
     steps = STEPS // 10 if quick else STEPS
     for n in (4,) if quick else (3, 4, 5, 6, 8):
         apart = float(np.abs(trajectory(n, FEW) - continued(n, FEW)).max() / EPSILON)
         if not apart <= ROUNDING:
             raise NotComparable(f"n = {n}: the trajectory differs from its steps, continued, by {apart:.1e}")
         for setting, balls, many in (("one ball", 1, 1), (f"{BATCH} balls", BATCH, 10)):
-            sides: dict[str, Callable[..., Any]] = {setting: partial(trajectory, n, steps // many, balls)}
+            sides: dict[str, Callable[..., object]] = {setting: partial(trajectory, n, steps // many, balls)}
             if balls == 1:
                 sides[f"{setting}, contact"] = partial(trajectory, n, steps, contact=True)
             runs = {name: (run, steps // many * balls) for name, run in sides.items()}

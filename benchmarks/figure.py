@@ -1,6 +1,6 @@
 """The figure of what has curves: work and precision, and the drifts of long runs, on logarithmic scales."""
 
-from typing import Any
+from matplotlib.axes import Axes
 
 from chapsym.show.drawing.style import Picture, empty
 
@@ -38,7 +38,7 @@ def panels(found: Result) -> dict[str, list[Curve]]:
     return {name: [curve for curve in found.curves if curve.panel == name] for name in names}
 
 
-def _panel(axis: Any, title: str, curves: list[Curve], section: str) -> None:
+def _panel(axis: Axes, title: str, curves: list[Curve], section: str) -> None:
     drawn = sorted(curves, key=lambda curve: not curve.label.startswith(OURS))
     colours = {name: f"C{i}" for i, name in enumerate(dict.fromkeys(map(_alone, drawn)))}
     for i, curve in enumerate(drawn):

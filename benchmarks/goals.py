@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import numpy as np
 
@@ -44,6 +43,7 @@ FIRST = {
 }
 PROGRAM = "-m", "chapsym"
 Say = Callable[[str], None]
+Fresh = tuple[tuple[str, ...], tuple[str, ...], float]
 
 
 def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
@@ -154,7 +154,7 @@ def timed(arguments: tuple[str, ...], program: tuple[str, ...] = PROGRAM) -> flo
 
 def first_calls(rounds: int, on_round: Say, missing: dict[str, str]) -> list[Reached]:
     """Fresh processes, with the start of Python and the imports: median seconds of the processor."""
-    runs: dict[str, Any] = {f"first call, {name}": ((), ("-c", START + call), 0.4) for name, call in FIRST.items()}
+    runs: dict[str, Fresh] = {f"first call, {name}": ((), ("-c", START + call), 0.4) for name, call in FIRST.items()}
     found = []
     with TemporaryDirectory() as folder:
         scene = str(Path(__file__).parents[1] / "docs" / "first.toml")
@@ -178,7 +178,7 @@ def single_steps(counts: Iterable[int], rounds: int, on_round: Say) -> list[Reac
         on_round(f"one step of {balls} balls")
         K, g, J, D = states(balls)
         ball = chapsym.Ball(J, D)
-        sides: dict[str, Callable[..., Any]] = {
+        sides: dict[str, Callable[..., object]] = {
             "step": chapsym.step,
             "trajectory of 1": partial(chapsym.trajectory, steps=1),
         }

@@ -8,9 +8,11 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+
+#: A call that is timed.
+Run = Callable[[], object]
 
 
 class NotComparable(ArithmeticError):
@@ -26,7 +28,7 @@ class Contender:
     """
 
     name: str
-    run: Callable[[], Any]
+    run: Run
     work: int
     clock: Callable[[], float] = time.process_time
 

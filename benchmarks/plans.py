@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 import chapsym
 from chapsym.dynamics import TopMotion
+from chapsym.files import Data
 
 from .harness import NotComparable
 from .results import Reached, Result, ratio_columns, timed
@@ -21,7 +21,8 @@ BATCH = 1000
 #: How far the ends of the two may be apart: n^(3/2) roundings, which the full model makes.
 ROUNDING = 2.0**-50
 
-Run = Callable[..., Any]
+Run = Callable[..., np.ndarray]
+Frames = Callable[..., chapsym.Trajectory]
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ def _full(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: boo
     return chapsym.trajectory(ball, K, GAMMA, steps, every=every, threads=1, **body).momentum[..., -1, :]  # type: ignore[arg-type]
 
 
-def _at_once(frames: Run, ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
+def _at_once(frames: Frames, ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
     return frames(ball, K, GAMMA, range(0, steps + 1, every), **body).momentum[..., -1, :]
 
 
@@ -71,7 +72,7 @@ def pairs() -> list[Pair]:
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times each reduction and the full model, all frames and 1 of 1000; their ends are compared before."""
     rounds = 5 if quick else 15
-    rows: list[dict[str, Any]] = []
+    rows: list[Data] = []
     for pair in pairs():
         # The two ways to ask: every frame of a short run, few of a long one.
         for steps, every in ((100, 1), (2000, 1)) if pair.balls > 1 else ((1000, 1), (20_000, 1)):
@@ -83,7 +84,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
     return Result("the reductions and the full model, one core", rows, reach=reach)
 
 
-def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Callable[[str], None]) -> dict[str, Any]:
+def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Callable[[str], None]) -> Data:
     ends = [side(steps, every) for side in (pair.reduced, pair.full)]
     apart = float(np.abs(ends[0] - ends[1]).max() / EPSILON)
     if not apart <= ROUNDING * steps**1.5:

@@ -25,7 +25,7 @@ PATIENCE = 5.0
 
 #: The angular momentum, γ and, where they are followed, the contact points: (frames, 3), (frames, 3), (frames, 2).
 States = tuple[np.ndarray, np.ndarray, np.ndarray | None]
-Runs = dict[str, Callable[[], Any]]
+Runs = dict[str, Callable[[], object]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +147,7 @@ def _integrator(tolerance: float, kind: str) -> Any:
     """heyoka.py's, of K, γ, the attitude and the contact point; the parameters are J, D and the radius."""
     import heyoka
 
-    v: Any = heyoka.make_vars("K1", "K2", "K3", "g1", "g2", "g3", "a0", "a1", "a2", "a3", "x", "y")
+    v = heyoka.make_vars("K1", "K2", "K3", "g1", "g2", "g3", "a0", "a1", "a2", "a3", "x", "y")
     kinetic, radius = (*v[:6], *(heyoka.par[i] for i in range(4))), heyoka.par[4]
     omega, attitude = generated.angular_velocity(*kinetic), v[6:10]
     slip = generated.rotate(*attitude, *cross(omega, v[3:6]))

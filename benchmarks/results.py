@@ -2,9 +2,10 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
-from typing import Any
 
-from .harness import Contender, Timing, cores, interleaved
+from chapsym.files import Data
+
+from .harness import Contender, Run, Timing, cores, interleaved
 
 #: A unit of time, of seconds.
 UNITS = {"ns": 1e9, "µs": 1e6, "ms": 1e3}
@@ -19,13 +20,13 @@ class Result:
     """
 
     title: str
-    rows: list[dict[str, Any]]
+    rows: list[Data]
     missing: dict[str, str] = field(default_factory=dict)
     reach: "list[Reached]" = field(default_factory=list)
     curves: list["Curve"] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
-    def table(self) -> list[dict[str, Any]]:
+    def table(self) -> list[Data]:
         """The rows."""
         return self.rows
 
@@ -37,7 +38,7 @@ class Result:
         ]
         return [*reach, *(f"{name}: {reason}" for name, reason in self.missing.items()), *self.notes]
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> Data:
         """All of it, as plain data."""
         return asdict(self) | {"reach": [asdict(one) | {"met": one.met} for one in self.reach]}
 
@@ -72,14 +73,14 @@ class Curve:
     y: list[float]
 
 
-def ratio_columns(timing: Timing, reference: Timing, label: str) -> dict[str, Any]:
+def ratio_columns(timing: Timing, reference: Timing, label: str) -> Data:
     """The columns of a table that compare a side with the reference."""
     middle, lower, upper = timing.ratio_to(reference)
     return {f"to {label}": middle, "quartiles": [lower, upper]}
 
 
 def timed(
-    sides: Mapping[str, tuple[Callable[[], Any], int]], rounds: int, say: Callable[[str], None], what: str
+    sides: Mapping[str, tuple[Run, int]], rounds: int, say: Callable[[str], None], what: str
 ) -> dict[str, Timing]:
     """Times sides, each with the units of its work, together on one core; `what`: of them, for the progress."""
     contenders = [Contender(name, run, work) for name, (run, work) in sides.items()]
@@ -91,10 +92,10 @@ def beside(
     timings: Mapping[str, Timing],
     home: str,
     unit: str,
-    columns: Mapping[str, Any],
-    differs: Any = None,
+    columns: Mapping[str, object],
+    differs: object = None,
     label: str = "",
-) -> list[dict[str, Any]]:
+) -> list[Data]:
     """The rows of a table: each side's time in a unit, and its ratio to one of them.
 
     differs: by how much the sides differ, all or each by its name.  label: what the table calls `home`.

@@ -1,6 +1,6 @@
 """One trajectory on one core: nanoseconds a step, chapsym and what a user might write."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
@@ -8,6 +8,7 @@ import numpy as np
 
 import chapsym
 from chapsym.dynamics.levels import frames
+from chapsym.files import Data
 
 from . import peers
 from .harness import NotComparable
@@ -22,10 +23,11 @@ CHAPSYM, ARRAYS, LISTS = "chapsym", "NumPy, arrays of 3", "Python floats"
 COMPARED = 100
 AGREEMENT = COMPARED * 64 * 2.0**-53
 
-Peer = Callable[[np.ndarray, np.ndarray, np.ndarray, float, int], tuple[np.ndarray, np.ndarray]]
+Ends = tuple[np.ndarray, np.ndarray]
+Peer = Callable[[np.ndarray, np.ndarray, np.ndarray, float, int], Ends]
 
 
-def with_chapsym(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: Any, steps: int) -> tuple[np.ndarray, np.ndarray]:
+def with_chapsym(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float, steps: int) -> Ends:
     """The public trajectory, of one ball or of a batch, of which only the end is kept."""
     end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1), threads=frames.cores())
     return end.momentum[..., -1, :], end.gamma[..., -1, :]
@@ -39,7 +41,7 @@ SIDES: dict[str, tuple[Peer, int]] = {
 }
 
 
-def agreement(sides: dict[str, Callable[[], Any]], momentum: np.ndarray, bound: float) -> dict[str, float]:
+def agreement(sides: Mapping[str, Callable[[], Ends]], momentum: np.ndarray, bound: float) -> dict[str, float]:
     """The largest difference of each side's (K, g) from chapsym's, relative to |𝒦| and 1.
 
     Raises NotComparable where it is beyond `bound`.
@@ -63,7 +65,7 @@ Start = tuple[Any, Any, Any, Any]
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None, own: Start | None = None) -> Result:
     """Times one trajectory for each ε, or of one's own ball; every side is checked against chapsym before."""
     steps, rounds = (50_000, 5) if quick else (2_000_000, 21)
-    rows: list[dict[str, Any]] = []
+    rows: list[Data] = []
     reach: list[Reached] = []
     starts = [(MASS_TENSOR, D, epsilon * MOMENTUM, GAMMA) for epsilon in EPSILONS] if own is None else [own]
     for tensor, contact, *vectors in starts:

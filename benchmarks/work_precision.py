@@ -11,6 +11,7 @@ import numpy as np
 
 import chapsym
 from chapsym import generated
+from chapsym.files import Data
 
 from . import continuous
 from .harness import installed
@@ -147,7 +148,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
     exact = continuous.reference(STATE, END)
     sweep, missing = methods(quick)
     points = swept(sweep, exact, 2 if quick else 9, on_round)
-    rows: list[dict[str, Any]] = []
+    rows: list[Data] = []
     reach = []
     for target in TARGETS:
         best: dict[str, float] = {}

@@ -13,16 +13,17 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import mpmath
 import numpy as np
+from mpmath import MPContext, mpf
 
 from chapsym import generated
+from chapsym.files import Data
 from chapsym.generated import TABLE
 
 from .states import CHANGES, DRAWN, arguments
 
 #: Digits of the reference for the errors.
-CONTEXT = mpmath.MPContext()
+CONTEXT = MPContext()
 CONTEXT.dps = 90
 ULP = 2.0**-52
 #: The relative change of an argument from which its derivative is taken: its error is of the same order.
@@ -34,32 +35,32 @@ MANIFEST = Path(generated.__file__).parent / "manifest.json"
 
 Kernel = Callable[..., Any]
 KERNELS: dict[str, Kernel] = {name: getattr(generated, name) for name in TABLE}
-Groups = dict[str, Sequence[Any]]
+Groups = dict[str, Sequence[mpf]]
 #: One view of an output: its values, and what its error is relative to.
-Seen = tuple[Sequence[Any], Any]
+Seen = tuple[Sequence[mpf], mpf]
 
 
 class View(NamedTuple):
     """A part of a kernel's output that has a scale of its own, from the output and the arguments by group."""
 
-    values: Callable[[Sequence[Any], Groups], Sequence[Any]] = lambda output, groups: output
-    size: Callable[[Sequence[Any], Groups], Any] | None = None  # unless it is its own largest component
+    values: Callable[[Sequence[mpf], Groups], Sequence[mpf]] = lambda output, groups: output
+    size: Callable[[Sequence[mpf], Groups], mpf] | None = None  # unless it is its own largest component
 
 
-def _largest(values: Sequence[Any], groups: Groups) -> Any:
+def _largest(values: Sequence[mpf], groups: Groups) -> mpf:
     return max(map(abs, values))
 
 
-def _vertical(output: Sequence[Any], groups: Groups) -> Sequence[Any]:
+def _vertical(output: Sequence[mpf], groups: Groups) -> Sequence[mpf]:
     return [sum((a * b for a, b in zip(output, groups["gamma"], strict=True)), CONTEXT.mpf(0))]
 
 
-def _rolled(output: Sequence[Any], groups: Groups) -> Any:
+def _rolled(output: Sequence[mpf], groups: Groups) -> mpf:
     state = ("rotation", "gamma", "mass_tensor", "D")
     return max(map(abs, generated.momentum(*(x for name in state for x in groups[name]))))
 
 
-def _solved(output: Sequence[Any], groups: Groups) -> Any:
+def _solved(output: Sequence[mpf], groups: Groups) -> mpf:
     return max(map(abs, groups["half_momentum"])) * (1 + sum(x * x for x in groups["gibbs"]))
 
 
@@ -94,25 +95,25 @@ class Worst(NamedTuple):
         """The error in units of what a rounding of the arguments by an ulp does, or of an ulp if that is more."""
         return self.ulps / max(1.0, self.condition)
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> Data:
         """All of it, and its share; an error that is not finite is None."""
         return {name: finite(x) for name, x in (self._asdict() | {"share": self.share}).items()}
 
 
-def finite(x: Any) -> Any:
+def finite(x: object) -> object:
     """None for a number that JSON has not."""
     return None if isinstance(x, float) and not math.isfinite(x) else x
 
 
-def grouped(kernel: str, arguments: Sequence[Any]) -> Groups:
+def grouped(kernel: str, arguments: Sequence[mpf]) -> Groups:
     """Flat arguments by group."""
     rest = iter(arguments)
     return {name: [next(rest) for _ in range(length)] for name, length in TABLE[kernel][1]}
 
 
-def seen(kernel: str, function: Kernel, point: Sequence[Any], at: Sequence[Any] | None = None) -> dict[str, Seen]:
+def seen(kernel: str, function: Kernel, point: Sequence[mpf | float], at: Sequence[mpf] = ()) -> dict[str, Seen]:
     """The views of the results of a kernel's text at a point, as mpf; `at`: the point as mpf, if it is of floats."""
-    result, groups = function(*point), grouped(kernel, point if at is None else at)
+    result, groups = function(*point), grouped(kernel, at or point)
     output = [CONTEXT.mpf(x) for x in (result if isinstance(result, tuple) else (result,))]
     found = {}
     for name, view in VIEWS.get(kernel, {"": View()}).items():
@@ -135,7 +136,7 @@ def errors(kernel: str, function: Kernel, stratum: str, given: Sequence[float]) 
     return worst
 
 
-def _off(found: Sequence[Any], values: Sequence[Any], size: Any) -> float:
+def _off(found: Sequence[mpf], values: Sequence[mpf], size: mpf) -> float:
     if not all(CONTEXT.isfinite(x) for x in found):
         return math.inf
     off = max(abs(a - b) for a, b in zip(found, values, strict=True))
@@ -177,7 +178,7 @@ class Kernels:
                     "worst": worst, "hardest": hardest,
                 })  # fmt: skip
 
-    def table(self) -> list[dict[str, Any]]:
+    def table(self) -> list[Data]:
         """The worst error, the condition number there, and the worst error in units of it, for each row."""
         return [
             {
@@ -192,7 +193,7 @@ class Kernels:
         """The meaning of the columns."""
         return ["errors against 90 digits"]
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> Data:
         """All that was measured, as plain data; an error that is not finite is None."""
         return {
             "title": self.title,

@@ -1,7 +1,7 @@
 """Arguments of the kernels in every stratum, from numbers in [0, 1]."""
 
-from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -131,7 +131,7 @@ def arguments(kernel: str, stratum: str, drawn: Sequence[float]) -> list[float]:
     return [float(x) for name, _ in groups for x in (ARGUMENTS | special)[name](world, drawn)]
 
 
-def _cofactors(world: World, u: Sequence[float]) -> Any:
+def _cofactors(world: World, u: Sequence[float]) -> tuple[float, ...]:
     half = world.momentum / (2 * world.rotation[0] ** 2 * (1 + world.gibbs @ world.gibbs))
     return gibbs_newton(*(*world.gibbs, *half, *world.gamma, *world.inertia, world.D))[4:]
 
@@ -160,7 +160,7 @@ def _free(world: World, u: Sequence[float]) -> Floats:
 
 
 #: A group of arguments, from the world and what it was drawn from.
-ARGUMENTS: dict[str, Callable[[World, Sequence[float]], Any]] = {
+ARGUMENTS: dict[str, Callable[[World, Sequence[float]], Iterable[float]]] = {
     "momentum": _free,
     "omega": _free,
     "vector": _free,

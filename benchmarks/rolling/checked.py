@@ -39,12 +39,12 @@ decides, and of that with its centre of mass off the centre a lemma by hand has 
 """
 
 
-def first(case: dict[str, Any]) -> Any:
+def first(case: files.Data) -> Any:
     """The first frames of a case, as `certified_motion` gives them."""
     omega = [abs(float(middle)) for middle, _ in case["frames"][0]["omega"]]
     most = RADIANS / max(*omega, 1e-9)
     frames = [frame for i, frame in enumerate(case["frames"]) if i < 2 or Fraction(frame["time"]) <= most]
-    arrays: dict[str, Any] = dict.fromkeys(PARTS)
+    arrays: files.Data = dict.fromkeys(PARTS)
     for name in frames[0].keys() & arrays.keys():
         arrays[name] = np.array([[arb(*pair) for pair in f[name]] for f in frames], dtype=object)
     return SimpleNamespace(times=[Fraction(f["time"]) for f in frames], digits=DIGITS, **arrays)

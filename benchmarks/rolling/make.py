@@ -13,7 +13,6 @@ import json
 import sys
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import mpmath
 
@@ -60,7 +59,7 @@ BODIES = {"urdf": URDF, "xml": MJCF}
 COLUMNS = "time x y z qw qx qy qz vx vy vz wx wy wz"
 
 
-def made(scene: Path) -> dict[str, Any]:
+def made(scene: Path) -> files.Data:
     """The case of a scene: body, frames with proved radii, and how they were proved."""
     given = load(scene)
     start, times = exact_motion(given)
@@ -70,14 +69,14 @@ def made(scene: Path) -> dict[str, Any]:
     return case_of(scene.stem, given.title, start) | found.write()
 
 
-def text(case: dict[str, Any]) -> str:
+def text(case: files.Data) -> str:
     """As JSON, a frame a line."""
     head = {name: value for name, value in case.items() if name != "frames"}
     frames = ",\n".join(json.dumps(frame, separators=(",", ":")) for frame in case["frames"])
     return json.dumps(head, ensure_ascii=False)[:-1] + f', "frames": [\n{frames}\n]}}\n'
 
 
-def table(case: dict[str, Any]) -> str:
+def table(case: files.Data) -> str:
     """The frames as CSV, in space: the centre, the attitude from body to space, the velocity and ω."""
     mpmath.mp.dps = DIGITS + 10
     given = Fraction(case["ball"].get("radius", 0))
@@ -100,7 +99,7 @@ def table(case: dict[str, Any]) -> str:
     return stream.getvalue()
 
 
-def body(case: dict[str, Any], form: str) -> str:
+def body(case: files.Data, form: str) -> str:
     """The ball of a case, its axes the principal ones, in a form of BODIES."""
     ball = case["ball"]
     tensor = dict.fromkeys(("ixy", "ixz", "iyz"), "0") | dict(zip(("ixx", "iyy", "izz"), ball["inertia"], strict=True))

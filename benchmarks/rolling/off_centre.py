@@ -38,7 +38,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
-from sympy import Matrix, factor_terms, lambdify, symbols
+from sympy import Expr, Matrix, Symbol, factor_terms, lambdify, symbols
 
 from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.dynamics.errors import TooWide
@@ -48,6 +48,7 @@ from chapsym.dynamics.levels.balls import log_radius
 from chapsym.dynamics.levels.proved_root import MATRIX_BITS, lowest, unit, upper
 from chapsym.dynamics.loops.vectors import cross, dot
 from chapsym.dynamics.principal_axes import quaternions
+from chapsym.files import Data
 from chapsym.numbers.precisions import flint_terms
 
 Vector = Sequence[Any]
@@ -62,7 +63,7 @@ PIECES = 8
 
 
 @cache
-def derived() -> tuple[Callable[..., list[Any]], Callable[..., list[Any]]]:
+def derived() -> tuple[Callable[..., Vector], ...]:
     """K, and K' - K × ω, as functions of the parts of a `Body`, γ and ω.
 
     Of a Lagrangian L(v, ω, γ) and the constraint v = V = ρω × γ of the centre, γ' = γ × ω, with p = ∂L/∂v where v is V:
@@ -77,7 +78,7 @@ def derived() -> tuple[Callable[..., list[Any]], Callable[..., list[Any]]]:
     lagrangian = sum(x * y**2 / 2 for x, y in squares) - mass * gravity * gamma.dot(c)
     rolls = dict(zip(v, radius * omega.cross(gamma), strict=True))
 
-    def slope(of: Any, by: Sequence[Any]) -> Any:
+    def slope(of: Expr, by: Sequence[Symbol]) -> Matrix:
         return Matrix([of.diff(x) for x in by])
 
     K = slope(lagrangian.xreplace(rolls), w)
@@ -95,15 +96,15 @@ class Body(NamedTuple):
     offset: Vector
     gravity: Any
 
-    def arm(self, up: Vector) -> list[Any]:
+    def arm(self, up: Vector) -> Vector:
         """The vector r from the point of contact to the centre of mass, for the vertical `up`."""
         return [self.radius * x + y for x, y in zip(up, self.offset, strict=True)]
 
-    def momentum(self, up: Vector, w: Vector) -> list[Any]:
+    def momentum(self, up: Vector, w: Vector) -> Vector:
         """K of ω."""
         return derived()[0](*self, up, w)
 
-    def omega(self, up: Vector, K: Vector) -> list[Any]:
+    def omega(self, up: Vector, K: Vector) -> Vector:
         """ω of K: as (I + m|r|²)ω = K + m⟨r,ω⟩r."""
         r = self.arm(up)
         inverse = [1 / (i + self.mass * dot(r, r)) for i in self.inertia]
@@ -111,7 +112,7 @@ class Body(NamedTuple):
         along = self.mass * dot(r, x) / (1 - self.mass * dot(r, y))
         return [i + along * j for i, j in zip(x, y, strict=True)]
 
-    def torque(self, up: Vector, K: Vector, w: Vector) -> list[Any]:
+    def torque(self, up: Vector, K: Vector, w: Vector) -> Vector:
         """K'."""
         return [x + y for x, y in zip(cross(K, w), derived()[1](*self, up, w), strict=True)]
 
@@ -122,8 +123,8 @@ class Step(NamedTuple):
     axes: Sequence[Vector]
     K: Vector
     w: Vector
-    a: Any
-    b: Any
+    a: arb
+    b: arb
     contact: Vector
     began: Fraction
     length: Fraction
@@ -164,14 +165,14 @@ class Path:
         self.last = self._proved(Step(p[:3], p[3], w, a, b, self.last.contact, self.time, length))
         self.time, self.steps = self.time + length, self.steps + 1
 
-    def _series(self, start: Vector, h: Any, terms: int) -> list[Any]:
+    def _series(self, start: Vector, h: arb, terms: int) -> Vector:
         """Polynomials of axes, K and ω from there: each round gives another term."""
         found = [arb_series([x]) for x in start]
         for n in range(2, terms + 1):
             with flint_terms(n):
                 *axes, K = _vectors(found)
                 w = self.body.omega(axes[2], K)
-                rates = [x for v in axes for x in cross(v, w)] + self.body.torque(axes[2], K, w)
+                rates = [*(x for v in axes for x in cross(v, w)), *self.body.torque(axes[2], K, w)]
                 found = [x + (h * y).integral() for x, y in zip(start, rates, strict=True)]
         with flint_terms(terms):
             return [arb_poly(x.coeffs()) for x in (*found, *self.body.omega(found[6:9], found[9:]))]
@@ -200,7 +201,7 @@ class Path:
         contact = [x(1) + off + (h * body.radius * y).integral() for x, y in zip(step.contact, ways, strict=True)]
         return step._replace(a=a, b=b, contact=contact)
 
-    def frame(self, time: Fraction) -> dict[str, tuple[Any, ...]]:
+    def frame(self, time: Fraction) -> dict[str, tuple[arb, ...]]:
         """The parts of a frame at a time of the last step."""
         last, tau = self.last, ball((time - self.last.began) / self.last.length)
         axes = [[x(tau) + arb(0, last.a) for x in v] for v in last.axes]
@@ -218,11 +219,11 @@ def _vectors(numbers: Vector) -> list[Vector]:
     return [numbers[i : i + 3] for i in range(0, len(numbers), 3)]
 
 
-def _defect(v: Vector, h: Any, rate: Vector) -> list[Any]:
+def _defect(v: Vector, h: arb, rate: Vector) -> Vector:
     return [x.derivative() - h * y for x, y in zip(v, rate, strict=True)]
 
 
-def _off(v: Vector) -> Any:
+def _off(v: Vector) -> arb:
     """A bound of the distance from the middles."""
     with ctx.workprec(MATRIX_BITS):
         return upper([x.rad() for x in v])
@@ -271,7 +272,7 @@ START = Start(
 )  # fmt: skip
 
 
-def made(digits: int) -> dict[str, Any]:
+def made(digits: int) -> Data:
     """The case as `make.made` has those of scenes, with the centre of mass and gravity."""
     body, count = START.body, START.frames
     found = follow(START, tuple(i * START.time / count for i in range(count + 1)), digits, limit=7200.0)

@@ -7,25 +7,31 @@ there on v and w stay.  The angle about n is a polynomial in each phase.  tests/
 the equations and the joint exactly.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from flint import arb, ctx
+from sympy import Expr
 
 from chapsym import generated
 from chapsym.dynamics.enclosed_motion import CertifiedMotion, decimal, written
 from chapsym.dynamics.flow.start import ball, balls
+from chapsym.files import Data
+
+#: A rational number, or a formula.
+Exact: TypeAlias = Fraction | Expr
 
 
 class State(NamedTuple):
     """The way along d from the start, the velocity, the angle about n, and its rate."""
 
-    way: Any
-    velocity: Any
-    angle: Any
-    rate: Any
+    way: Exact
+    velocity: Exact
+    angle: Exact
+    rate: Exact
 
 
 @dataclass(frozen=True)
@@ -33,25 +39,25 @@ class Slide:
     """A start: velocity > radius · rate, which are along d and about n; SI units, any exact numbers."""
 
     title: str
-    mass: Any
-    radius: Any
-    friction: Any
-    gravity: Any
-    direction: tuple[Any, Any]
-    velocity: Any
-    rate: Any
-    time: Any = Fraction(3)
+    mass: Exact
+    radius: Exact
+    friction: Exact
+    gravity: Exact
+    direction: tuple[Exact, Exact]
+    velocity: Exact
+    rate: Exact
+    time: Exact = Fraction(3)
     frames: int = 60
     #: k of the moment of inertia kmr².
-    part: Any = Fraction(2, 5)
+    part: Exact = Fraction(2, 5)
 
     @property
-    def end(self) -> Any:
+    def end(self) -> Exact:
         """When it begins to roll."""
         slip = self.velocity - self.radius * self.rate
         return slip * self.part / ((1 + self.part) * self.friction * self.gravity)
 
-    def slides(self, t: Any) -> State:
+    def slides(self, t: Exact) -> State:
         """The state until `end`."""
         slowed = self.friction * self.gravity
         turned = slowed / (self.part * self.radius)
@@ -60,7 +66,7 @@ class Slide:
             self.rate * t + turned * t * t / 2, self.rate + turned * t,
         )  # fmt: skip
 
-    def rolls(self, t: Any) -> State:
+    def rolls(self, t: Exact) -> State:
         """The state from `end` on."""
         way, velocity, angle, rate = self.slides(self.end)
         return State(way + velocity * (t - self.end), velocity, angle + rate * (t - self.end), rate)
@@ -74,7 +80,7 @@ START = Slide(
 )  # fmt: skip
 
 
-def made(digits: int) -> dict[str, Any]:
+def made(digits: int) -> Data:
     """The case as `make.made` has those of scenes, with friction, gravity, `rolls_from` and each frame's velocity."""
     slide = START
     times = tuple(i * slide.time / slide.frames for i in range(slide.frames + 1))
@@ -82,7 +88,7 @@ def made(digits: int) -> dict[str, Any]:
     moment, bits = slide.part * slide.mass * slide.radius**2, 4 * digits + 24
     with ctx.workprec(bits):
         d, n = balls((first, second)), balls((-second, first, Fraction(0)))
-        arrays: dict[str, list[Any]] = {
+        arrays: dict[str, list[Sequence[arb]]] = {
             part: [] for part in ("gamma", "angular_momentum", "omega", "attitude", "contact")
         }
         velocities = []

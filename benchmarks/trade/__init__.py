@@ -5,6 +5,7 @@ from functools import partial
 from typing import Any
 
 from benchmarks.kernels import Kernels
+from chapsym.files import Data
 
 from ..harness import NotComparable
 from . import frontiers, requests
@@ -15,7 +16,7 @@ __all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "missed", 
 NAME, TITLE = "trade", "Speed against accuracy"
 ABOUT = "Time of the processor against correct digits, for every precision level, order and length of step."
 #: The sections that have a frontier, which are measured by default, and all of them.
-DRAWN: dict[str, Callable[..., Any]] = {
+DRAWN: dict[str, Callable[..., object]] = {
     "rounding": frontiers.rounding,
     "proved": frontiers.proved,
     "contact": partial(frontiers.one_ball, "contact"),
@@ -23,7 +24,7 @@ DRAWN: dict[str, Callable[..., Any]] = {
     "batch": frontiers.batch,
 }
 DEFAULT = tuple(DRAWN)
-SECTIONS: dict[str, Callable[..., Any]] = {**DRAWN, "requests": requests.measure, "kernels": Kernels}
+SECTIONS: dict[str, Callable[..., object]] = {**DRAWN, "requests": requests.measure, "kernels": Kernels}
 
 
 def run(section: str, quick: bool, say: Callable[[str], None] = lambda text: None) -> Any:
@@ -31,7 +32,7 @@ def run(section: str, quick: bool, say: Callable[[str], None] = lambda text: Non
     return SECTIONS[section](quick, say)
 
 
-def missed(found: dict[str, Any]) -> str | None:
+def missed(found: Data) -> str | None:
     """The sentence of what is not as it should be: a request that was not met."""
     for one in found.values():
         if isinstance(one, requests.Outcomes) and one.hits < len(one.outcomes):

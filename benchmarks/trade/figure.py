@@ -1,8 +1,8 @@
 """The figure: for each section, digits against the time of a simulated second; the frontier drawn through."""
 
 import textwrap
-from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
@@ -40,7 +40,7 @@ def draw(found: dict[str, Frontier]) -> Picture:
     return figure
 
 
-def _panel(axis: Any, one: Frontier) -> None:
+def _panel(axis: Axes, one: Frontier) -> None:
     best = one.best
     for point in one.points:
         on, (precision, order) = point in best, _way(point)

@@ -3,10 +3,11 @@
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
 
 from chapsym.dynamics import BadInput, StepNotTaken
+from chapsym.files import Data
 
+from ..harness import Run
 from ..results import timed
 
 Say = Callable[[str], None]
@@ -26,7 +27,7 @@ class Choice:
     steps: int
     time: float
     error: Callable[[], float]
-    run: Callable[[], Any]
+    run: Run
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ class Frontier:
         """The cheapest point with at least this many digits, or None."""
         return next((p for p in self._sorted() if p.digits >= digits), None)
 
-    def table(self) -> list[dict[str, Any]]:
+    def table(self) -> list[Data]:
         """The cheapest choice for each number of digits that some choice gives."""
         return [
             {
@@ -92,7 +93,7 @@ class Frontier:
         named = [f"dominated: {name} (by {better})" for name, better in self.dominated.items()]
         return [self.question, *named, *self.notes]
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> Data:
         """The section as plain data; the points carry whether they are on the frontier."""
         points = [vars(p) | {"frontier": p in self.best} for p in self.points]
         clause = {"title": self.title, "question": self.question, "points": points}

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from chapsym.dynamics import Ball, Trajectory, extrapolate, kernels, trajectory
 from chapsym.dynamics.certified import exactly
 from chapsym.numbers import NAMED, Digits, Enclosure, Precision
 
+from ..harness import Run
 from .frontier import Choice, Frontier, Say, frontier
 from .reference import sample, true_error, truth
 
@@ -74,19 +74,17 @@ def proved(quick: bool, say: Say) -> Frontier:
     def choice(precision: Precision) -> Choice:
         enclosed = isinstance(precision, Enclosure)
         timed = steps if enclosed else TIMED[NAMED["double-double"]]
-        options: dict[str, Any] = {"precision": precision, "proved": not enclosed}
+        ask = partial(run, precision=precision, proved=not enclosed)
 
         def error() -> float:
-            found = run(steps, every=steps, **options)
+            found = ask(steps, every=steps)
             if (bounds := found.proved) is None:
                 radii = [[float(x.rad()) for x in v[-1]] for v in (found.momentum, found.gamma)]
                 return max(max(radii[0]) / size, *radii[1])
             return float(max(bounds.momentum[-1] / size, bounds.gamma[-1]))
 
         name = f"ball{precision.bits}" if isinstance(precision, Enclosure) else label_of(precision)
-        return Choice(
-            f"{name}, proved", STEP, timed, timed * epsilon, error, partial(run, timed, every=timed, **options)
-        )
+        return Choice(f"{name}, proved", STEP, timed, timed * epsilon, error, partial(ask, timed, every=timed))
 
     question = f"proved digits of 𝒦/|𝒦| and γ of the map after {steps} steps"
     notes = [f"{steps} steps of |ω|ε = {STEP:g}"]
@@ -118,7 +116,7 @@ def one_ball(of: str, quick: bool, say: Say) -> Frontier:
     return frontier(f"one ball, {of}", question, notes, choices, DIGITS, 1 if quick else 5, say)
 
 
-def _choice(request: Request, method: Method, steps: int, error: Callable[[], float], run: Callable[[], Any]) -> Choice:
+def _choice(request: Request, method: Method, steps: int, error: Callable[[], float], run: Run) -> Choice:
     return Choice(name_of(method), request.rate * END / steps, steps, END, error, run)
 
 
@@ -169,5 +167,5 @@ def _all(ball: Ball, K: np.ndarray, gamma: np.ndarray, method: Method, steps: in
     if method.order == EXTRAPOLATED:
         extrapolate(ball, K, gamma, END / steps, steps)
         return
-    options: dict[str, Any] = {"order": method.order, "every": steps, "precision": method.precision, "threads": 1}
-    trajectory(ball, END / steps * K, gamma, steps, **options)
+    order, precision = method.order, method.precision
+    trajectory(ball, END / steps * K, gamma, steps, order=order, every=steps, precision=precision, threads=1)

@@ -7,7 +7,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from statistics import median
-from typing import Any
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from benchmarks import problems
 from chapsym.accuracy import Accurate, Method, Request, accurate, methods, take
 from chapsym.accuracy.answer import CHECKS, checks
 from chapsym.dynamics import BadInput, kernels
+from chapsym.files import Data
 from chapsym.numbers import NAMED
 
 from ..harness import Contender, interleaved
@@ -51,7 +51,7 @@ class Outcome:
             return math.inf, math.inf
         return self.answer.attempts[-1].seconds, self.answer.seconds
 
-    def row(self) -> dict[str, Any]:
+    def row(self) -> Data:
         """The row of the table."""
         chosen, estimate = "refused", math.inf
         if not isinstance(self.answer, str):
@@ -118,7 +118,7 @@ class Outcomes:
         self.hits = sum(one.error <= one.request.accuracy for one in outcomes)
         self.title = f"random requests: {self.hits} of {len(outcomes)} met"
 
-    def table(self) -> list[dict[str, Any]]:
+    def table(self) -> list[Data]:
         """A row for each request."""
         return [one.row() for one in self.outcomes]
 
@@ -133,7 +133,7 @@ class Outcomes:
             found.append(f"with what was tried before {median(whole):.1f} times, at most {max(whole):.1f}")
         return found
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> Data:
         """The table and the hits as plain data."""
         rows = [
             {name: value if isinstance(value, str) or abs(value) < 1e300 else None for name, value in row.items()}
