@@ -35,8 +35,8 @@ REACHED, ANSWERED, ABANDONED = 10.0, 60.0, 60.0
 class Call:
     """A function and its arguments, which another process may have to be sent."""
 
-    function: Callable[..., Any]
-    arguments: tuple[Any, ...] = ()
+    function: Callable[..., object]
+    arguments: tuple[object, ...] = ()
 
 
 Chain = Generator[Call, Any, None]
@@ -138,11 +138,11 @@ class Pool:
         """Two calls for each; of this thread, one after the other."""
         return 1 if isinstance(self.executor, Here) else 2 * self.workers
 
-    def submit(self, call: Call) -> Future[Any]:
+    def submit(self, call: Call) -> Future[object]:
         """A future of the executor."""
         return self.executor.submit(call.function, *call.arguments)
 
-    def landed(self, futures: Collection[Future[Any]]) -> Collection[Future[Any]]:
+    def landed(self, futures: Collection[Future[object]]) -> Collection[Future[object]]:
         """Waits for one of them."""
         return wait(futures, return_when="FIRST_COMPLETED").done
 

@@ -57,7 +57,7 @@ class Request:
     accuracy: float
     of: str = "state"
     frames: int = 1
-    attitude: Any = False
+    attitude: bool | Floats = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "angular_momentum", numbers(self.angular_momentum, "angular_momentum", 3))
@@ -84,7 +84,7 @@ class Request:
             object.__setattr__(self, "gamma", np.where(abs(self.gamma) < 1e-150, 0.0, self.gamma))
 
     @property
-    def body(self) -> Any:
+    def body(self) -> bool | Floats:
         """The followed attitude, as the argument of `trajectory`."""
         return True if self.attitude is False and self.of == "contact" else self.attitude
 
@@ -128,7 +128,7 @@ class Request:
         return float(self.ball.radius) if self.of == "contact" else 1.0  # type: ignore[arg-type]
 
 
-def _positive(value: Any, name: str) -> float:
+def _positive(value: ArrayLike, name: str) -> float:
     found = numbers(value, name)
     if found.ndim or not found > 0:
         raise BadInput(f"{name} must be one positive number, not {brief(value)}")
@@ -156,7 +156,7 @@ def _difference(run: Trajectory, other: Trajectory, name: str) -> Floats:
     return np.asarray(off / run.time_step if name == "momentum" else off)[1:]
 
 
-def _rest(run: Trajectory, name: str) -> Any:
+def _rest(run: Trajectory, name: str) -> Floats | float:
     """The low halves of double-double numbers."""
     return 0.0 if run.low is None else getattr(run.low, name)
 
@@ -458,7 +458,7 @@ def foreseen(request: Request, limit: float) -> Choice:
     return _foreseen(request, limit)[1]
 
 
-def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
+def _foreseen(request: Request, limit: float) -> tuple[Problem | None, Choice]:
     """The problem in double precision, None if that lacks the accuracy, and the first choice."""
     limit = time_limit(limit)
     in_range(request.time, request.angular_momentum)

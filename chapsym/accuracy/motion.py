@@ -707,7 +707,7 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
     return found
 
 
-def _error(problem: Problem, order: Any, step: Any) -> Floats:
+def _error(problem: Problem, order: np.ndarray | int, step: np.ndarray | float) -> Floats:
     """The error by the law, of each ball."""
     rate, law = problem.rate, np.vectorize(LAW.get, otypes=[float])(order)
     return np.asarray(law * (rate * step) ** order * (1 + rate * problem.end) * problem.units)

@@ -4,20 +4,19 @@ import json
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 from chapsym import checker
-from chapsym.files import write_text
+from chapsym.files import Data, write_text
 
 from .balls import NotProved, shortest
 
 #: The object of a certificate, or of a part of it.
-Document = dict[str, Any]
+Document = Data
 #: The fields that are computed from the others.
 MADE = ("format", "kind", "statement", "digest")
 
 
-def stated(kind: str, **fields: Any) -> Document:
+def stated(kind: str, **fields: object) -> Document:
     """The object of a certificate, with the statement of its numbers and its digest."""
     sentence = checker.statement({"kind": kind, **fields})
     document = {"format": checker.FORMAT, "kind": kind, "statement": sentence, **fields}

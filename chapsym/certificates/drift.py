@@ -6,9 +6,8 @@ the enclosures of the checker (checker/drift.py has the proof).
 
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -102,7 +101,7 @@ def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[i
     return max(itertools.permutations(range(6), 2), key=value)
 
 
-def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], None]) -> Document:
+def refined(fields: Document, digits: int, progress: Callable[[str], None]) -> Document:
     """The fields with the varied component and the time to this many decimals, by the secant method."""
     unit, varied = Fraction(1, 10**digits), STATE.index(fields["varied"])
     momentum = [Fraction(x) for x in fields["start"]["momentum"]]

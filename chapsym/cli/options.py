@@ -64,7 +64,7 @@ BALL = {
 }
 
 
-def with_options(options: Mapping[str, Any]) -> Callable[[Command], Command]:
+def with_options(options: Mapping[str, object]) -> Callable[[Command], Command]:
     """Gives a command that takes `**given` these options, None by default, before its own."""
 
     def made(command: Command) -> Command:

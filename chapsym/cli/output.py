@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from chapsym.scene.running.sweep import Progress
 #: An object of JSON, and a row of a table: values by name.
-Data = dict[str, Any]
+Data = files.Data
 Row = Mapping[str, object]
 
 #: Seconds between two lines of progress where standard error is no terminal.

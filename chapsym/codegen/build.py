@@ -20,7 +20,7 @@ import sympy as sp
 
 from chapsym.checker import Rejected
 from chapsym.checker import kernels as binding
-from chapsym.files import alone, pasted, write_text
+from chapsym.files import Data, alone, pasted, write_text
 from chapsym.prove import PROOFS, NoRegister, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
 from chapsym.prove.trees import tree
@@ -108,7 +108,7 @@ class Package:
         certificate = self.judged[id].certificate
         return certificate["digest"] if certificate else ""
 
-    def source(self, kernel: Kernel) -> tuple[str, dict[str, Any]]:
+    def source(self, kernel: Kernel) -> tuple[str, Data]:
         """The module of one kernel and its row of the manifest; raises Rejected unless it is carried."""
         digest = _hash("\n".join(sp.srepr(e) for e in kernel.expressions))
         operations = passes.operations(kernel)
@@ -140,7 +140,7 @@ class Package:
     @cached_property
     def files(self) -> dict[str, str]:
         """Every generated file but the fingerprints; raises ArithmeticError if a text computes something else."""
-        files, rows = {"__init__.py": package_source(self.kernels)}, dict[str, dict[str, Any]]()
+        files, rows = {"__init__.py": package_source(self.kernels)}, dict[str, Data]()
         for kernel in self.kernels:
             try:
                 files[f"{kernel.name}.py"], rows[kernel.name] = self.source(kernel)
@@ -318,7 +318,7 @@ def _hash(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _one_a_line(table: Mapping[str, Any]) -> str:
+def _one_a_line(table: Mapping[str, object]) -> str:
     """An object of JSON, one key a line."""
     return "{\n" + ",\n".join(f'"{key}": {json.dumps(value)}' for key, value in table.items()) + "\n}"
 

@@ -794,7 +794,7 @@ def printed(program: Program, roots: Sequence[Function], kernels: Sequence[Funct
     found = Printers(program)
     for function in (*roots, *kernels):
         found[function].names |= dict.fromkeys(function.parameters, "r") if function in kernels else {}
-    before: Any = None
+    before: object = None
     while before != (now := [(dict(p.names), p.returned, set(p.written)) for p in found.values()]):
         before = now
         for printer in list(found.values()):

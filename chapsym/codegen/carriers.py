@@ -15,12 +15,13 @@ import sympy as sp
 from chapsym.checker import kernels as binding
 from chapsym.checker.rational import number_at
 from chapsym.derive.quotient import Quotient
+from chapsym.files import Data
 from chapsym.prove import Examples
 from chapsym.prove.cofactors import Ideal, expression, ideal, trees
 from chapsym.prove.points import Exact, some
 from chapsym.prove.trees import NotAlgebra, tree
 
-Places = Mapping[sp.Symbol, Any]
+Places = Mapping[sp.Symbol, sp.Expr | int]
 #: The number of points at which a text is compared with its carrier before the search for cofactors.
 MOST_POINTS = 8
 
@@ -67,7 +68,7 @@ class Carrier:
         """Some of the entries, counted from 0, in this order."""
         return self._then("entries", list(numbers))
 
-    def _then(self, step: str, by: Any) -> "Carrier":
+    def _then(self, step: str, by: object) -> "Carrier":
         return replace(self, steps=(*self.steps, (step, by)))
 
     @property
@@ -75,7 +76,7 @@ class Carrier:
         """The claims whose statements it needs."""
         return [self.claim, *(id for step, by in self.steps if step == "solved" for id in by.claims)]
 
-    def data(self, digest: Callable[[str], str]) -> dict[str, Any]:
+    def data(self, digest: Callable[[str], str]) -> Data:
         """The carrier as the checker reads it, with the digest of the certificate of each claim; raises NotAlgebra."""
         steps = [[step, by.data(digest) if isinstance(by, Carrier) else _trees(by)] for step, by in self.steps]
         return {
@@ -94,7 +95,7 @@ def right(claim: str, statement: str) -> Carrier:
     return Carrier(claim, statement, "right")
 
 
-def _places(by: Any) -> Places:
+def _places(by: object) -> Places:
     if not isinstance(by, Mapping) or not all(isinstance(x, sp.Symbol) for x in by):
         raise TypeError(f"what is put or moved is given as {{symbol: expression}}, not {by!r:.40}")
     return dict(by)
@@ -106,7 +107,7 @@ def _trees(by: Any) -> Any:
     return [_trees(one) if isinstance(one, Mapping) else one for one in by]
 
 
-def completed(row: dict[str, Any], text: str, certificates: binding.Certificates, where: str) -> list[dict[str, Any]]:
+def completed(row: Data, text: str, certificates: binding.Certificates, where: str) -> list[Data]:
     """The carriers of a row, with the data that the checker needs for a text.
 
     These are cofactors for the entries that are equal only by the relations of the ring, and a point at which the
@@ -128,22 +129,22 @@ def completed(row: dict[str, Any], text: str, certificates: binding.Certificates
     return carriers
 
 
-def _given(carrier: Mapping[str, Any], certificates: binding.Certificates) -> Exact:
+def _given(carrier: Data, certificates: binding.Certificates) -> Exact:
     """The numbers at the points of a carrier's certificate."""
     points = certificates.get(f"{carrier['claim']} {carrier['certificate']}", {}).get("points", [])
     return {sp.Symbol(x): sp.Rational(v) for point in points for x, v in point.items() if isinstance(v, int | str)}
 
 
-def _differs(one: binding.Difference, point: Mapping[str, Any], where: str) -> bool:
+def _differs(one: binding.Difference, point: Data, where: str) -> bool:
     """Whether a result and the entry of its carrier differ at a point, if both have values there."""
     with suppress(binding.Rejected):
         return number_at(one.value, {x: Fraction(v) for x, v in point.items()}, where) != 0
     return False
 
 
-def _points(one: binding.Carried, i: int, given: Exact, where: str) -> list[dict[str, Any]]:
+def _points(one: binding.Carried, i: int, given: Exact, where: str) -> list[Data]:
     """Points of a carrier, as in the checker."""
-    of, found = one.rings[i], list[dict[str, Any]]()
+    of, found = one.rings[i], list[Data]()
     ring = Quotient([sp.Symbol(name) for name in of.ring.variables], [expression(r) for r in of.relations])
     for exact in some(ring, Examples(given)):
         point = {x.name: int(v) if v.is_Integer else str(v) for x, v in exact.items()}

@@ -342,7 +342,7 @@ class Ball(Parameters):
         return inertia_of(self.mass_tensor)
 
     @property
-    def exact(self) -> tuple[Any, Any, Any]:
+    def exact(self) -> tuple[np.ndarray, np.ndarray, Asked]:
         """J, D and the radius as given: arrays of Fractions for exact numbers, else floats."""
         return self.__dict__.get("_given", (self.mass_tensor, self.D, self.radius))
 
@@ -420,7 +420,7 @@ def in_principal_axes(ball: Ball) -> Ball:
     return ball
 
 
-def keep(ball: Any, **parameters: Floats | None) -> None:
+def keep(ball: object, **parameters: Floats | None) -> None:
     """Sets the parameters of a new ball, read-only."""
     for name, values in parameters.items():
         if values is not None:

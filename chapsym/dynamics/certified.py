@@ -227,7 +227,7 @@ def errors_of(balls: np.ndarray, given: Any, bits: int) -> Floats:
         return np.array([bound(x, y) for x, y in rows]).reshape(balls.shape[:-1])
 
 
-def proved_digits(x: Any) -> str:
+def proved_digits(x: object) -> str:
     """A decimal number to which every number of the ball rounds; "nan" for a ball without numbers."""
     if not hasattr(x, "rad"):
         return "nan"

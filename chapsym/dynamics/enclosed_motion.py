@@ -295,7 +295,7 @@ def _check_up(attitude: Sequence[Fraction], gamma: Sequence[Fraction]) -> None:
         raise BadInput("attitude must turn gamma to (0, 0, 1): give those two together, or gamma alone")
 
 
-def _ascending(times: Any) -> tuple[Fraction, ...]:
+def _ascending(times: object) -> tuple[Fraction, ...]:
     from .flow.start import exactly, vector
 
     if isinstance(times, str) or not isinstance(times, Iterable) or getattr(times, "ndim", 1) == 0:

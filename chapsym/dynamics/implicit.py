@@ -266,7 +266,7 @@ def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:
     return made
 
 
-def _exactly(one: Any) -> Any:
+def _exactly(one: object) -> object:
     """A rational number as a fraction; a number of another precision unchanged."""
     if isinstance(one, Rational):
         return Fraction(int(one.numerator), int(one.denominator))

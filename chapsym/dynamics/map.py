@@ -365,7 +365,7 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
     return min(int(value), MOST_STEPS)
 
 
-def time_limit(value: Any) -> float:
+def time_limit(value: float) -> float:
     """A limit in seconds; raises BadInput for anything but a positive number."""
     real = is_whole(value) or isinstance(value, float | np.floating)
     if not real or not value > 0:
@@ -386,7 +386,7 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
     return given.astype(np.int64)
 
 
-def step_of_run(time_step: Any, steps: int) -> float | None:
+def step_of_run(time_step: float | Fraction | None, steps: int) -> float | None:
     """The time step of a run in seconds, if given; raises BadInput for an invalid one, and for times beyond float64."""
     epsilon = None if time_step is None else seconds(time_step)
     if epsilon is not None and not steps * epsilon < math.inf:

@@ -54,7 +54,7 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
     }
     shape, flat = batch(ball.principal, *vectors.values())
     vectors = {name: array.reshape(*shape, 3) for name, array in zip(vectors, flat, strict=False)}
-    found: dict[str, Any] = {name: ball.to_principal(vector) for name, vector in vectors.items()}
+    found = {name: ball.to_principal(vector) for name, vector in vectors.items()}
     attitude = given.get("attitude", False)
     if not isinstance(attitude, bool | np.bool_) or attitude or given.get("contact"):
         start = initial_attitude(attitude, vectors["gamma"])
@@ -67,7 +67,7 @@ def in_axes_of(ball: Ball, found: Run) -> Run:
     frames = getattr(found, "index", None) is not None or np.ndim(getattr(found, "time", 0.0)) > 0
     assert ball.axes is not None
     axes = ball.axes[..., np.newaxis, :] if frames else ball.axes
-    turned: dict[str, Any] = {}
+    turned: dict[str, object] = {}
     for field in fields(found):
         value = getattr(found, field.name)
         if field.name == "ball":
@@ -259,7 +259,7 @@ def finished(run: Run, reach: Floats) -> Run:
 
 
 def of_balls(
-    kind: Callable[..., R], shape: tuple[int, ...], ball: Any, index: np.ndarray, *flat: Asked, **more: Any
+    kind: Callable[..., R], shape: tuple[int, ...], ball: object, index: np.ndarray, *flat: Asked, **more: Any
 ) -> R:
     """A run of any kind, from flat arrays (n, ...): momentum, gamma, attitude, contact, taken and status."""
     return kind(ball, index, *[in_shape(shape, x) for x in flat], **more)

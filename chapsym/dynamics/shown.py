@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import fields
 from html import escape
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,7 @@ class Brief:
         return f"{type(self).__name__}({shown})"
 
 
-def _short(value: Any) -> str:
+def _short(value: object) -> str:
     if isinstance(value, list | tuple) and len(value) > FEW:
         return f"<{len(value)}>"
     if not isinstance(value, np.ndarray | np.generic):

@@ -75,7 +75,7 @@ class Motion:
     seconds: float
 
 
-def whole_number(given: Any, what: str) -> int:
+def whole_number(given: float, what: str) -> int:
     """A count in the range of C; raises BadSystem for anything else."""
     if not is_whole(given) or not 1 <= given < 2**62:
         clause = "to 2^62" if is_whole(given) and given > 0 else "on"
@@ -287,7 +287,7 @@ class Runner:
             if not all(map(_are_finite, (energy, *itertools.chain(*kept), *integrals))):
                 raise NotSolved(f"{self.system.name}, {self.method}: a quantity is not defined on the motion")
             is_enclosed = isinstance(self.level, Enclosure)
-            largest: Any = np.frompyfunc(lambda a, b: a.max(b), 2, 1).reduce if is_enclosed else np.max
+            largest = np.frompyfunc(lambda a, b: a.max(b), 2, 1).reduce if is_enclosed else np.max
             constraint, places = (largest([0 * place[:, 0], *map(np.abs, values)], axis=0) for values in kept)
             if self.in_floats:
                 times = h * (np.arange(0, steps, every) + float(self.scheme.when))

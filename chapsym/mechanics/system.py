@@ -201,9 +201,9 @@ class System:
     constraints: Sequence[sp.Expr] = ()
     holonomic: Sequence[sp.Expr] = ()
     forces: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    parameters: Mapping[sp.Symbol, Any] = field(default_factory=dict)
-    start: Mapping[sp.Symbol, Any] = field(default_factory=dict)
-    step: Any = "1/10"
+    parameters: Mapping[sp.Symbol, object] = field(default_factory=dict)
+    start: Mapping[sp.Symbol, object] = field(default_factory=dict)
+    step: object = "1/10"
     source: str = ""
     discrete: Discrete | None = None
     integrals: Mapping[str, sp.Expr] = field(default_factory=dict)

@@ -5,9 +5,13 @@ half of the work.  Compiled, each operation is the function of `numbers.pairs` t
 """
 
 from collections.abc import Callable
-from typing import Any
+
+import numpy as np
 
 from . import pairs
+
+#: A float, or an array of floats.
+Half = float | np.ndarray
 
 
 class Loose:
@@ -16,10 +20,10 @@ class Loose:
     __slots__ = ("high", "low")
     __array_ufunc__ = None  # an array leaves its operations with a number to it
 
-    def __init__(self, high: Any, low: Any = None) -> None:
+    def __init__(self, high: Half, low: Half | None = None) -> None:
         self.high, self.low = high, low
 
-    def _with(self, other: Any, forms: tuple[Callable, Callable, Callable]) -> "Loose":
+    def _with(self, other: "Loose | Half", forms: tuple[Callable, Callable, Callable]) -> "Loose":
         """The sum or the product with another number, by the form for two floats, a pair and a float, or two pairs."""
         a, b = self, other if isinstance(other, Loose) else Loose(other)
         of = Normal if isinstance(a, Normal) or isinstance(b, Normal) else Loose
@@ -44,35 +48,35 @@ class Loose:
     def __neg__(self) -> "Loose":
         return type(self)(-self.high, None if self.low is None else -self.low)
 
-    def __add__(self, other: Any) -> "Loose":
+    def __add__(self, other: "Loose | Half") -> "Loose":
         return self._added(self._with(other, (pairs.two_sum, pairs.loose_add_float, pairs.loose_add)))
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> "Loose":
+    def __sub__(self, other: "Loose | Half") -> "Loose":
         b = other if isinstance(other, Loose) else Loose(other)
         if self.low is None or b.low is None:
             return self + -b
         return self._added(self._with(b, (pairs.two_sum, pairs.loose_add_float, pairs.loose_subtract)))
 
-    def __rsub__(self, other: Any) -> "Loose":
+    def __rsub__(self, other: "Loose | Half") -> "Loose":
         return -self + other
 
-    def __mul__(self, other: Any) -> "Loose":
+    def __mul__(self, other: "Loose | Half") -> "Loose":
         if isinstance(other, int) and other in (1, 2):
             return self if other == 1 else self._scaled(2.0)
         return self._with(other, (pairs.two_product, pairs.loose_multiply_float, pairs.loose_multiply))
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> "Loose":
+    def __truediv__(self, other: "Loose | Half") -> "Loose":
         if isinstance(other, int) and other == 2:
             return self._scaled(0.5)
         b = other if isinstance(other, Loose) else Loose(other)
         b = Loose(b.high, 0.0) if b.low is None else b.normalised()
         return type(self)(*pairs.divide(self.high, 0.0 if self.low is None else self.low, b.high, b.low))
 
-    def __rtruediv__(self, other: Any) -> "Loose":
+    def __rtruediv__(self, other: Half) -> "Loose":
         return Loose(other) / self
 
 

@@ -3,15 +3,16 @@
 from collections.abc import Callable
 from fractions import Fraction
 from functools import total_ordering
-from typing import Any
 
 from . import pairs
 
+Operator = Callable[["Pair", "Pair | float"], "Pair"]
 
-def _operator(function: Callable[..., tuple[float, float]], swapped: bool = False) -> Callable[[Any, Any], "Pair"]:
+
+def _operator(function: Callable[..., tuple[float, float]], swapped: bool = False) -> Operator:
     """An operator of `Pair` by an operation on halves."""
 
-    def operate(self: "Pair", other: Any) -> "Pair":
+    def operate(self: "Pair", other: "Pair | float") -> "Pair":
         a, b = self, self._pair(other)
         if swapped:
             a, b = b, a
@@ -47,7 +48,7 @@ class Pair:
         """The square root; raises ValueError below 0."""
         return Pair(*pairs.root(self.high, self.low))
 
-    def _pair(self, other: Any) -> "Pair":
+    def _pair(self, other: "Pair | float") -> "Pair":
         if isinstance(other, Pair):
             return other
         return Pair.of(other) if isinstance(other, int) else Pair(other)
@@ -72,7 +73,7 @@ class Pair:
         b = self._pair(other)
         return self.high == b.high and self.low == b.low
 
-    def __lt__(self, other: Any) -> bool:
+    def __lt__(self, other: "Pair | float") -> bool:
         b = self._pair(other)
         return self.high < b.high or (self.high == b.high and self.low < b.low)
 

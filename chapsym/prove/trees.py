@@ -7,13 +7,13 @@ from typing import Any
 import sympy as sp
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
+from chapsym.checker.trees import Tree
+
 from .polynomials import Ratio
 
 Monomial = tuple[int, ...]
 #: A polynomial: coefficients by the exponents.
 Terms = Mapping[Monomial, int | fmpq]
-#: An expression as the checker reads it: a name, a number, or ["+" | "*" | "^", operands...].
-Tree = int | str | list["Tree"]
 #: An object of JSON: a certificate, a record, or a part of one, with trees in it.
 Data = dict[str, Any]
 

@@ -13,8 +13,8 @@ from .records import FEDOROV, Record, Source, errors, kinds, label, section, sli
 FORMAT = "chapsym errata 1"
 WITHDRAWN = "withdrawn"
 
-Entry = dict[str, Any]
-State = dict[str, Any]
+Entry = files.Data
+State = files.Data
 
 
 def markdown(records: Sequence[Record], version: str, source: Source = FEDOROV) -> str:
@@ -176,7 +176,7 @@ def _entry(record: Record, source: Source) -> Entry:
     }
 
 
-def _example(example: Mapping[str, Any], source: Source) -> dict[str, Any]:
+def _example(example: files.Data, source: Source) -> files.Data:
     """An exact point, and both sides of the printed statement there."""
     named = notation.point(example["point"], not source.register)
     printed = []

@@ -5,7 +5,6 @@ import re
 import unicodedata
 from collections.abc import Sequence
 from itertools import takewhile
-from typing import Any
 
 from chapsym import files
 
@@ -89,7 +88,7 @@ def in_line(shown: str | Matrix) -> str:
     return shown if isinstance(shown, str) else "[" + "; ".join(" ".join(row) for row in shown) + "]"
 
 
-def sides(example: dict[str, Any], compact: bool = False) -> tuple[list[str | Matrix], list[str | Matrix]]:
+def sides(example: files.Data, compact: bool = False) -> tuple[list[str | Matrix], list[str | Matrix]]:
     """Both sides of a statement at a point; compact: of more than three entries only the different ones."""
     left, right = list(example["left"]), list(example["right"])
     if compact and len(left) > 3:
@@ -106,7 +105,7 @@ def _vector(entries: Sequence[str]) -> list[str | Matrix]:
     return values
 
 
-def sign(example: dict[str, Any]) -> str:
+def sign(example: files.Data) -> str:
     """The sign between the sides of a statement at a point; the right one may be words, as `at least 2`."""
     if example["left"] == example["right"]:
         return " ="
@@ -114,7 +113,7 @@ def sign(example: dict[str, Any]) -> str:
     return ", claimed:" if any(re.match(words, entry) for entry in example["right"]) else " ≠"
 
 
-def differing(example: dict[str, Any]) -> bool:
+def differing(example: files.Data) -> bool:
     """Whether the compact form of the sides omits entries."""
     return len(example["left"]) > 3 and any(a == b for a, b in zip(example["left"], example["right"], strict=True))
 

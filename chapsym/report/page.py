@@ -8,10 +8,11 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import groupby
 from pathlib import Path
-from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
+
+from chapsym.files import Data
 
 from . import errata, formulas, graph, notation, symbols
 from . import records as reading
@@ -72,11 +73,11 @@ class Page:
             "formula": formulas.html, "value": value, "label": reading.label, "code": code, "symbols": symbols_html,
         }  # fmt: skip
 
-    def render(self, template: str, **context: Any) -> Markup:
+    def render(self, template: str, **context: object) -> Markup:
         """A template of this package, rendered."""
         return Markup(self._templates.get_template(template).render(**context))
 
-    def section(self, name: str, title: str, template: str, **context: Any) -> Markup:
+    def section(self, name: str, title: str, template: str, **context: object) -> Markup:
         """The section by its template, or a box with the reason why it is missing."""
         try:
             return self.render(template, **context)
@@ -88,7 +89,7 @@ class Page:
         return self.section(f"claim-{record['id']}", f"Claim {record['id']}", "claim.html", record=record)
 
 
-def by_method(checks: Sequence[Mapping[str, Any]]) -> list[tuple[str, list[Mapping[str, Any]]]]:
+def by_method(checks: Sequence[Data]) -> list[tuple[str, list[Data]]]:
     """Successive checks with the same method, under its name."""
     return [(method, list(those)) for method, those in groupby(checks, lambda check: str(check.get("method", "")))]
 

@@ -7,11 +7,11 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from chapsym import files
 
-Record = dict[str, Any]
+Record = files.Data
 
 #: All verdicts, in the order in which they are counted, with their meanings.
 VERDICTS = {

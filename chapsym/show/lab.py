@@ -3,9 +3,9 @@
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
-from typing import Any
 
 from chapsym.extras import need
+from chapsym.files import Data
 
 #: The columns of a table, with their widths as text.
 COLUMNS = {
@@ -22,7 +22,7 @@ method.</p>
 """
 
 
-def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constraints: Mapping[str, str]) -> str:
+def page(cells: Sequence[Data], titles: Mapping[str, str], constraints: Mapping[str, str]) -> str:
     """The page, as text.
 
     Parameters
@@ -47,7 +47,7 @@ def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constrai
     return document("Methods on mechanical systems", ABOUT + "\n".join(parts))
 
 
-def figures(cell: Mapping[str, Any]) -> list[str]:
+def figures(cell: Data) -> list[str]:
     """The figures of a cell as text, in the order of COLUMNS without the method, then further ones, or "".
 
     - replaces missing figures, and those hidden by rounding.
@@ -74,7 +74,7 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def decided(cell: Mapping[str, Any]) -> list[str]:
+def decided(cell: Data) -> list[str]:
     """The proved properties of a cell, with its order; the false, with the power of the step; the undecided."""
     found: dict[str, list[str]] = {"proved": [], "false": [], "not decided": []}
     for name, one in cell.get("verdicts", {}).items():
@@ -87,7 +87,7 @@ def decided(cell: Mapping[str, Any]) -> list[str]:
     return [f"{verdict}: {', '.join(of)}" for verdict, of in found.items() if of]
 
 
-def _verdicts(cells: Sequence[Mapping[str, Any]]) -> str:
+def _verdicts(cells: Sequence[Data]) -> str:
     """The verdicts of methods, with the exact states where they are false."""
     lines = []
     for cell in cells:
@@ -98,7 +98,7 @@ def _verdicts(cells: Sequence[Mapping[str, Any]]) -> str:
     return f"<details><summary>Exact verdicts</summary><ul>{''.join(lines)}</ul></details>" if lines else ""
 
 
-def _row(cell: Mapping[str, Any], title: str) -> str:
+def _row(cell: Data, title: str) -> str:
     first = f"<tr><td>{escape(title)}"
     if cell["failed"]:
         return f"{first}<td colspan={len(COLUMNS) - 1}>{escape(cell['failed'])}</tr>"
@@ -107,7 +107,7 @@ def _row(cell: Mapping[str, Any], title: str) -> str:
     return first + "".join(f"<td>{one}" for one in shown) + f"{more}</tr>"
 
 
-def _curves(cells: Sequence[Mapping[str, Any]]) -> str:
+def _curves(cells: Sequence[Data]) -> str:
     """The change of the energy over time, on a scale that shows large and small ones; and the error against work."""
     need("figures")
     from matplotlib.ticker import LogFormatterSciNotation

@@ -14,7 +14,6 @@ state, and compared with the same errors.
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from typing import Any
 
 import mpmath
 import numpy as np
@@ -26,6 +25,7 @@ from chapsym.dynamics.levels.frames import cores
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import step
 from chapsym.dynamics.oracle import Oracle, OracleStep
+from chapsym.files import Data
 
 ULP = 2.0**-52
 #: A term of the residual is rounded at most 8 times, by half an ulp: products of five factors and the sum.
@@ -132,7 +132,7 @@ def compare(state: State, digits: int = 34) -> tuple[Floats, Floats, float, floa
     q = found.rotation[1:]
     size, extent = np.abs(state.K).max() or 1.0, np.abs(q).max() or 1.0
 
-    def ulps(values: Floats, exact: list[Any], scale: float) -> float:
+    def ulps(values: Floats, exact: list[mpmath.mpf], scale: float) -> float:
         return max(float(abs(e - float(v)) / scale) for v, e in zip(values, exact, strict=True)) / ULP
 
     jacobian = kernels.tangent_jacobian(found.rotation, state.g, state.J, state.D)
@@ -201,7 +201,7 @@ def drift(steps: int = 100_000) -> Drift:
     return Drift(steps, height, squared, unit, budget=8 * ULP * float(np.sqrt(steps)))
 
 
-def as_json(rows: list[Row], moved: Drift) -> dict[str, Any]:
+def as_json(rows: list[Row], moved: Drift) -> Data:
     """The whole check for --json."""
     return {
         "budget_ulps": BUDGET,

@@ -10,10 +10,11 @@ from collections.abc import Mapping
 from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from types import ModuleType
 
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.frames import cores
+from chapsym.files import Data
 
 #: The folder of `benchmarks` and `research`, if this is a checkout: the wheel has neither.
 ROOT = Path(__file__).parents[2]
@@ -21,7 +22,7 @@ ROOT = Path(__file__).parents[2]
 NAMED = ("chapsym", "numpy", "scipy", "heyoka")
 
 
-def in_checkout(package: str, module: str) -> Any:
+def in_checkout(package: str, module: str) -> ModuleType:
     """A module of `benchmarks` or `research`; raises BadInput without these folders, and MissingExtra."""
     if not (ROOT / package / "__init__.py").is_file():
         raise BadInput(f"{package}/ is not in the wheel; run this from a checkout")
@@ -32,7 +33,7 @@ def in_checkout(package: str, module: str) -> Any:
         sys.path.remove(str(ROOT))
 
 
-def save_figures(package: str, drawn: Mapping[str, str], found: dict[str, Any], folder: Path) -> list[Path]:
+def save_figures(package: str, drawn: Mapping[str, str], found: Data, folder: Path) -> list[Path]:
     """The figures of a study by the names of their files; raises CannotWrite if the folder cannot be written to.
 
     drawn: the function of each figure, "module:function", in a module of the package of the study.
@@ -48,7 +49,7 @@ def save_figures(package: str, drawn: Mapping[str, str], found: dict[str, Any], 
     return [folder / name for name in drawn]
 
 
-def machine() -> dict[str, Any]:
+def machine() -> Data:
     """The description of the machine for a measurement: the processor, its cores, the compiler, and the versions."""
     return {
         "cpu": _cpu(),

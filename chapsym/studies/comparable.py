@@ -329,7 +329,7 @@ def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], prog
     if found.stopped:
         raise BadInput(f"{name}: the motion is certified to {float(found.times[-1]):g} s only: {found.stopped}")
     still = [[arb(0)] * 2] * len(times)  # for a body that nothing touches
-    parts: list[Any] = [still if found.contact is None else found.contact, found.attitude, found.omega]
+    parts = [still if found.contact is None else found.contact, found.attitude, found.omega]
     path, attitude, omega = (np.array([[float(x.mid()) for x in row] for row in part]) for part in parts)
     attitude /= np.linalg.norm(attitude, axis=-1, keepdims=True)
     time = np.array([float(at) for at in times])

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -112,9 +111,9 @@ def limit_of(name: str) -> str:
 Departure = dict[str, np.ndarray]
 
 
-def summary(found: Departure, time: np.ndarray) -> dict[str, Any]:
+def summary(found: Departure, time: np.ndarray) -> files.Data:
     """The greatest error of each part, the error at the end, and the time at which the limit is passed: for JSON."""
-    results: dict[str, Any] = {}
+    results: files.Data = {}
     for name, part in found.items():
         results[name] = {"greatest": float(np.abs(part).max()), "end": float(part[-1]), "unit": UNITS[name]}
         if name in LIMITS:

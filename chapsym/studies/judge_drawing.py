@@ -3,7 +3,6 @@
 import html
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -38,7 +37,7 @@ def save(
         figures.save(picture, output)
 
 
-def draw(data: Mapping[str, Any]) -> Picture:
+def draw(data: files.Data) -> Picture:
     """A panel for each part, a line for each run, over the time after the start; the limit of departure is dotted."""
     case, found = data["case"], data["found"]
     parts = [name for name in UNITS if any(name in one for one in found)]
@@ -85,7 +84,7 @@ greatest distance at the frames, and when it passes {limits}.</p>
     return document(f"{case.name}: an engine, judged", about + said + curves)
 
 
-def _cell(part: Mapping[str, Any] | None) -> str:
+def _cell(part: files.Data | None) -> str:
     if part is None:
         return ""
     departs = part.get("departs")

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed, wait
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -37,7 +36,7 @@ class Balls:
     rest: Floats | None = None
 
 
-def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> Any:
+def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> np.ndarray:
     """The given numbers, as Fractions in the shape of the floats, if they are exact; else the floats."""
     if not beyond_float64(given):
         return floats
@@ -49,7 +48,7 @@ def given(
 ) -> tuple[tuple[int, ...], Floats, Balls]:
     """The leading axes of the states, γ in float64, and the balls of a run: for Digits and Enclosure as given."""
     shape, floats = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
-    rest, state = None, tuple[Any, ...](floats)
+    rest, state = None, tuple[np.ndarray, ...](floats)
     if isinstance(precision, Digits | Enclosure):
         state = tuple(exactly(x, y, shape) for x, y in zip((momentum, gamma, *ball.exact[:2]), floats, strict=True))
     elif beyond_float64(momentum):

@@ -66,7 +66,7 @@ def magnitude(J: Exact, D: Fraction) -> tuple[int, int]:
     return math.frexp(top)[1] + shift, max(0, lost)
 
 
-def fraction(x: Any) -> Fraction:
+def fraction(x: object) -> Fraction:
     """A number of any precision as an exact fraction; the midpoint of a ball."""
     if hasattr(x, "mid"):
         man, exp = map(int, x.mid().man_exp())

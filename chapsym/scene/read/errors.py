@@ -10,12 +10,11 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from chapsym.dynamics import BadInput
+from chapsym.files import Data
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
-#: A table of TOML, or an object of JSON, with all that is in it.
-Data = dict[str, Any]
 #: The keys of each table.
 Keys = Mapping[str, Iterable[str]]
 

@@ -9,7 +9,6 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
-from typing import Any
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
@@ -120,7 +119,7 @@ class _Reader:
             builder.end(tag)
             inside.pop()
 
-        def doctype(*_: Any) -> None:
+        def doctype(*_: object) -> None:
             raise SceneError(f"{self.path}, line {parser.CurrentLineNumber}: a DOCTYPE is not read: take it out")
 
         parser.StartElementHandler, parser.CharacterDataHandler, parser.EndElementHandler = start, builder.data, end

@@ -7,7 +7,7 @@ from collections.abc import Hashable
 from dataclasses import asdict, replace
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -178,7 +178,7 @@ def grid(data: "Dataset") -> "Dataset":
     lengths |= {key: one.count for key, one in spans.items()}
     if any(one.drawn for body in tables for one in body.sweep.ranges.values()):
         lengths[SAMPLE] = tables[0].sweep.shape[-1]
-    whole: dict[Any, Any] = {key: _spread(one, lengths) for key, one in data.variables.items()}
+    whole: dict[object, object] = {key: _spread(one, lengths) for key, one in data.variables.items()}
     whole["name"] = whole.pop("ball")
     if len(tables) > 1:
         whole["ball"] = ("ball", np.array([body.name for body in tables], dtype=object))

@@ -422,8 +422,8 @@ def _dataset(arrays: Mapping[str, np.ndarray], layout: "Structure", attrs: Data)
     """The Dataset of these arrays of a `structure`."""
     import xarray
 
-    coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in layout["labels"].items()}
-    variables: dict[Any, Any] = {}
+    coords: dict[str, object] = {dim: np.array(names, dtype=object) for dim, names in layout["labels"].items()}
+    variables: dict[str, object] = {}
     for name, one in layout["variables"].items():
         if np.ndim(arrays[name]) != len(one["dims"]):
             raise ValueError(f"{name} has {np.ndim(arrays[name])} axes, not {', '.join(one['dims'])}")
@@ -450,10 +450,10 @@ def _old(columns: Mapping[str, np.ndarray]) -> "Dataset":
         parts.setdefault(name, []).append(values)
     found = {name: some[0] if len(some) == 1 else np.stack(some, axis=-1) for name, some in parts.items()}
     step = found["step"]
-    coords: dict[Any, Any] = {"ball": np.array(["1"], dtype=object), "step": ("frame", step, {"units": "1"})}
+    coords: dict[str, object] = {"ball": np.array(["1"], dtype=object), "step": ("frame", step, {"units": "1"})}
     if "time" in found:
         coords["time"] = ("frame", found["time"], {"units": "s"})
-    variables: dict[Any, Any] = {}
+    variables: dict[str, object] = {}
     for name, values in found.items():
         of = OUTPUTS.get(whose(name))
         if of is not None:

@@ -134,7 +134,7 @@ def draw_orbit(
     shown, rest = points[:part], points[part :: max(1, (len(points) - part) // REST)]
     if len(shown) > 20 * most:
         shown, near = shown[np.linspace(0, part - 1, 20 * most).astype(int)], False
-    form: dict[str, Any] = {"linewidth": 1.2} if near else {
+    form = {"linewidth": 1.2} if near else {
         "marker": "o", "linestyle": "", "markersize": 3.2 if len(shown) < 400 else 1.6, "markeredgewidth": 0,
     }  # fmt: skip
     _draw(axis, view, shown, color=colour, zorder=3, rasterized=len(shown) > most, **form)

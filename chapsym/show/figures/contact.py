@@ -106,7 +106,7 @@ def _lines(axis: Axes, dataset: Dataset, trace: Floats, legend: bool = True) -> 
     """A line for each ball, with its start, its end, and arrows along it."""
     last, names, stopped = reading.last_frames(dataset), reading.labels(dataset), reading.stopped(dataset)
     few = len(trace) <= FEW
-    colours: Any = COLOURS
+    colours = COLOURS
     if not few:
         name, data, units = reading.first_parameter(dataset)
         colours = scale([axis], data, reading.labelled(name, units))(data)

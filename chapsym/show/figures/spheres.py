@@ -108,7 +108,7 @@ def _forbidden(axis: Axes, view: View, body: Ball, found: dict[str, Floats], of_
     low, high = float(energies.min()), float(energies.max())
     inside, seen = view.disc(PIXELS)
     least, largest = energy_range(body, body.to_principal(seen), float(np.median((m * gamma).sum(-1))), of_gamma)
-    image: Any = np.zeros((PIXELS, PIXELS, 4))
+    image = np.zeros((PIXELS, PIXELS, 4))
     # The least and largest energies have the error of a parabola through samples: 1.6e-4 of the range was measured.
     slack = 1e-3 * (float(np.max(largest)) - float(np.min(least)))
     image[inside, 3] = 0.3 * ((least > high + slack) | (largest < low - slack))

@@ -7,7 +7,6 @@ import re
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from typing import Any
 from urllib.parse import quote
 
 import numpy as np
@@ -124,7 +123,7 @@ def _notes(found: Motion) -> list[str]:
     return [*found.notes, *common, *single]
 
 
-def _ball(ball: Rolling) -> dict[str, Any]:
+def _ball(ball: Rolling) -> files.Data:
     """Rotations and vectors in float32; contact points in float64: the ball may be far away."""
     return {
         "name": ball.name,
@@ -153,6 +152,6 @@ def _text(file: str) -> str:
     return (FOLDER / file).read_text(encoding="utf-8")
 
 
-def _json(value: Any) -> str:
+def _json(value: object) -> str:
     """JSON for a script element."""
     return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
