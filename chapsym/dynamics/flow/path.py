@@ -26,7 +26,7 @@ from ..levels.start import exponent_of
 from ..loops.branch import moments
 from ..loops.vectors import cross, dot
 from .deviation import Body, Defects, Polynomials, bound, defects, deviation, exact
-from .series import LONG, TERMS, Floats, Series, linear, long_float, motion
+from .series import LONG, TERMS, Series, linear, long_float, motion
 
 Row = Sequence[arb_series]
 Rows = Sequence[Row]
@@ -90,7 +90,7 @@ def _exact(series: Row) -> list[arb_poly]:
     return [exact(x) for x in series]
 
 
-def _rows(matrices: Floats) -> Sequence[Polynomials]:
+def _rows(matrices: np.ndarray) -> Sequence[Polynomials]:
     """A matrix of polynomials, from the matrices of their coefficients."""
     return [[arb_poly(matrices[:, i, j].tolist()) for j in range(3)] for i in range(3)]
 
@@ -281,7 +281,7 @@ def _rolled(radius: arb, w: Polynomials, found: Defects, slip: arb) -> Polynomia
     return radius * x.integral(), -radius * y.integral()
 
 
-def _polys(rows: Floats) -> list[arb_poly]:
+def _polys(rows: np.ndarray) -> list[arb_poly]:
     """Polynomials of long floats."""
     high = rows.astype(float)
     rest = (rows - high).astype(float)
@@ -299,7 +299,7 @@ def _log(x: arb) -> float:
     return _exponent(x) if x > 0 else -math.inf
 
 
-def _turn(a: Floats, k: Floats, J: Floats, D: float, rotor: Floats) -> float:
+def _turn(a: np.ndarray, k: np.ndarray, J: np.ndarray, D: float, rotor: np.ndarray) -> float:
     """The time of about a radian, of the ball or of one that the rotor alone turns; 0 at rest."""
     R = np.reshape(generated.rotation(*a), (3, 3))
     with np.errstate(all="ignore"):  # numbers that are too far apart are refused

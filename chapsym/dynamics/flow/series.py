@@ -14,7 +14,6 @@ from chapsym import generated
 
 from ..loops.vectors import cross
 
-Floats = np.ndarray
 Vector = Sequence[Any] | np.ndarray
 
 #: Coefficients of a polynomial in float64: beyond them are 17 digits, at the length of a step.
@@ -29,12 +28,12 @@ class Series(NamedTuple):
     A is the matrix of the linear equation ξ' = Aξ of neighbouring motions (see `deviation`), Φ its solutions from 1.
     """
 
-    a: Floats
-    gamma: Floats
-    w: Floats
-    B: Floats
-    A: Floats
-    Phi: Floats
+    a: np.ndarray
+    gamma: np.ndarray
+    w: np.ndarray
+    B: np.ndarray
+    A: np.ndarray
+    Phi: np.ndarray
 
     def scaled(self, by: Any) -> "Series":
         """The same with `by` times the unit of time."""
@@ -45,7 +44,7 @@ class Series(NamedTuple):
             self.Phi * rows,
         )  # fmt: skip
 
-    def sizes(self) -> Floats:
+    def sizes(self) -> np.ndarray:
         """The size of each coefficient, (n,): of w relative to its first."""
         turning = max(np.abs(self.w[:, 0]).max(), 1.0)
         return np.asarray(np.max([np.abs(x).max(axis=0) for x in (self.a, self.gamma, self.w / turning)], axis=0))
@@ -89,7 +88,7 @@ def motion(a: Vector, k: Vector, J: Vector, D: float, rotor: Vector = (0.0, 0.0,
     return Series(y[:4], y[4:7], w, B, A, linear(A, np.zeros((terms - 1, 3, 3)), np.eye(3)))
 
 
-def quotient(B: Floats, right: Floats) -> Floats:
+def quotient(B: np.ndarray, right: np.ndarray) -> np.ndarray:
     """The series X with BX = right, (n, 3, ...)."""
     found = np.zeros_like(right)
     inverse = np.linalg.inv(B[0])
@@ -100,7 +99,7 @@ def quotient(B: Floats, right: Floats) -> Floats:
     return found
 
 
-def linear(A: Floats, rest: Floats, start: Floats) -> Floats:
+def linear(A: np.ndarray, rest: np.ndarray, start: np.ndarray) -> np.ndarray:
     """The solution of x' = Ax + rest from x(0) = start, (n + 1, 3, ...), rest (n, 3, ...)."""
     found = np.zeros((len(rest) + 1, *start.shape))
     found[0] = start
@@ -117,7 +116,7 @@ def long_float(x: Any) -> Any:
         return LONG(high) + LONG(float(x - high))
 
 
-def _bilinear() -> Floats:
+def _bilinear() -> np.ndarray:
     """(½ a∘w, γ × w, K × w) by the products of (a, γ, K), 10, and w, 3: (10, 30)."""
     found = np.zeros((10, 10, 3))
     for i, a in enumerate(np.eye(4)):

@@ -193,7 +193,7 @@ MOST_ROUNDS = 100
 #: one.
 COLD, WARM = (100, 1e-7), (3, 1e-12)
 
-Floats = tuple[float, ...]
+FloatVector = tuple[float, ...]
 #: A point, and a bound of its distance from a root; None if none is proved.
 Near = tuple[Vector, arb] | None
 
@@ -202,7 +202,7 @@ class NotSettled(ArithmeticError):
     """The corrections did not converge."""
 
 
-def extrapolated(past: Sequence[Floats]) -> Floats:
+def extrapolated(past: Sequence[FloatVector]) -> FloatVector:
     """The next Gibbs vector by the polynomial through the last eight, newest first; 0 where there are fewer."""
     if len(past) < len(WEIGHTS):
         return 0.0, 0.0, 0.0
@@ -212,7 +212,7 @@ def extrapolated(past: Sequence[Floats]) -> Floats:
     return u1, u2, u3
 
 
-def root(guess: Floats, state: Vector, bits: int, lost: int, unit: arb) -> tuple[Vector, Floats]:
+def root(guess: FloatVector, state: Vector, bits: int, lost: int, unit: arb) -> tuple[Vector, FloatVector]:
     """The Gibbs vector with this many bits, from a guess in float64, as exact numbers, and its float64 value.
 
     state: k, γ, I and D, the largest moment about 1; unit: a power of two about |k|.  lost: the bits that the
@@ -239,7 +239,7 @@ def _rounded(state: Vector) -> Vector:
     return tuple(+x for x in state)
 
 
-def _in_float64(guess: Floats, state: Floats) -> tuple[Floats, list[float]]:
+def _in_float64(guess: FloatVector, state: FloatVector) -> tuple[FloatVector, list[float]]:
     """A Gibbs vector by Newton's iteration in float64, and (∂G/∂u)⁻¹, column by column."""
     u, (k, g, inertia, D) = guess, (state[:3], state[3:6], state[6:9], state[9])
     rounds, enough = COLD if guess == (0.0, 0.0, 0.0) else WARM
@@ -255,7 +255,7 @@ def _in_float64(guess: Floats, state: Floats) -> tuple[Floats, list[float]]:
     return u, inverse
 
 
-def _chord(start: Floats, state: Vector, inverse: Sequence[float], lost: int, unit: arb) -> Vector:
+def _chord(start: FloatVector, state: Vector, inverse: Sequence[float], lost: int, unit: arb) -> Vector:
     """Corrections with one approximate inverse until the next one would be below a unit, or below `lost` bits.
 
     The corrections are floats, in that unit.  Raises NotSettled if they do not shrink.
@@ -409,9 +409,9 @@ class _UnderWay:
         self.a: Vector = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
         self.x = (arb(0), arb(0))
         self.stages = [None if c == 1 else exact(c) for c in stages]
-        self.past: list[deque[Floats]] = [deque(maxlen=len(WEIGHTS)) for _ in stages]
+        self.past: list[deque[FloatVector]] = [deque(maxlen=len(WEIGHTS)) for _ in stages]
 
-    def _root(self, k: Vector, past: deque[Floats]) -> tuple[Vector, Floats] | None:
+    def _root(self, k: Vector, past: deque[FloatVector]) -> tuple[Vector, FloatVector] | None:
         """A point near the Gibbs vector, and its float64 value; None if no iteration finds it."""
         state = *k, *self.g, *self.I, self.D
         try:
@@ -466,7 +466,7 @@ class DigitsBall(_UnderWay):
                 tuple((x + y).mid() for x, y in zip(v, turn(*p, *v), strict=True)) for v in (self.k, self.g)
             )
 
-    def _gibbs(self, k: Vector, bound: float, past: deque[Floats]) -> Vector | None:
+    def _gibbs(self, k: Vector, bound: float, past: deque[FloatVector]) -> Vector | None:
         """The Gibbs vector, if `small-branch` or `straight-path` proves that it is that of the branch; else None."""
         found = self._root(k, past) if bound >= 0.0 or bound == BEYOND else None
         if found is None:
@@ -536,7 +536,7 @@ class ArbBall(_UnderWay):
         along, across = arb(0, (off * self.length).abs_upper()), arb(0, off.abs_upper())
         return tuple(x + along for x in self.k), tuple(x + across for x in self.g)
 
-    def _proved(self, k: Vector, every: Vector, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
+    def _proved(self, k: Vector, every: Vector, bound: tuple[arb, arb] | None, past: deque[FloatVector]) -> Near:
         """A point, and a bound of its distance from the branch's Gibbs vectors of all states; None if none is proved.
 
         k: that of the followed point; every: k, γ, I and D of all states.
@@ -553,7 +553,7 @@ class ArbBall(_UnderWay):
             past.appendleft(start)
             return u, (length / slope).abs_upper()
 
-    def _selected(self, every: Vector, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
+    def _selected(self, every: Vector, bound: tuple[arb, arb] | None, past: deque[FloatVector]) -> Near:
         """The same for the root that the continuation selects; None if its Gibbs vector is too long: the step is taken
         here.
 
