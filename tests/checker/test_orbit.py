@@ -81,10 +81,10 @@ def test_the_derivative_is_that_of_the_equations_and_the_root_of_a_step_is_the_o
         for row, a, b in zip(exact, there, back, strict=True):
             difference = mp.mpf(a.lo - b.lo) / (2 * h)
             assert abs(difference - mp.mpf(row[j].lo) / mp.mpf(2) ** row[j].bits) < mp.mpf(2) ** -150
-    # The root of a step is proved to be alone for |γ| = 1, |𝒦| = 2.76; for |γ| = 1.05 or |𝒦| = 2.9 it may not be.
-    search.after(search.centre, [])
+    # The root of a step is proved to be alone for |γ| = 1, |𝒦| = 2.80; for |γ| = 1.05 or |𝒦| = 2.82 it may not be.
     momentum, gamma = search.centre[:3], search.centre[3:]
-    for longer in ([*momentum, *(x * 21 / 20 for x in gamma)], [*(x * 9 / 8 for x in momentum), *gamma]):
+    search.check_branch([*(x * 203 / 200 for x in momentum), *gamma])
+    for longer in ([*momentum, *(x * 21 / 20 for x in gamma)], [*(x * 51 / 50 for x in momentum), *gamma]):
         with pytest.raises(Rejected, match="small branch"):
             search.after(longer, [])
 

@@ -20,6 +20,7 @@ import chapsym.proofs
 from chapsym import checker
 from chapsym.checker import Rejected, check, read, shown
 from chapsym.checker.__main__ import main
+from chapsym.checker.trees import check_name
 
 FOLDER = Path(chapsym.proofs.__file__).parent / "certificates" / "register"
 CHECKER = Path(checker.__file__).parent
@@ -71,6 +72,12 @@ def test_what_is_false_or_out_of_form_is_rejected_in_one_sentence(samples, name)
         check(data)
     assert 10 < len(str(caught.value)) < 220
     assert "\n" not in str(caught.value)
+
+
+def test_a_name_has_at_most_forty_letters():
+    check_name("a" * 40, "the register")
+    with pytest.raises(Rejected, match="the register has an invalid name"):
+        check_name("a" * 41, "the register")
 
 
 SMALL, SMALL_AND_WRONG = (a | b | c for a, b, c in zip(small(), derivations(), counts(), strict=True))
