@@ -569,11 +569,8 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
     if ball.is_one and all(v.ndim == 1 for v in vectors):
         return (), [v[np.newaxis] for v in (*vectors, ball.mass_tensor, ball.D)]
     radius = () if ball.radius is None else ball.radius.shape
-    try:
-        shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], radius, *(v.shape[:-1] for v in vectors))
-    except ValueError:
-        shapes = ", ".join(str(s) for s in [ball.mass_tensor.shape, ball.D.shape, *(v.shape for v in vectors)])
-        raise BadInput(f"the leading axes of ball (mass_tensor, D) and vectors do not broadcast: {shapes}") from None
+    leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, *(v.shape[:-1] for v in vectors)]
+    shape = common_shape(leading, "ball (mass_tensor, D, radius) and of the vectors")
     flat = [_filled((*shape, 3), v).reshape(-1, 3) for v in (*vectors, ball.mass_tensor)]
     return shape, [*flat, _filled(shape, ball.D).reshape(-1)]
 

@@ -11,7 +11,7 @@ import pytest
 import chapsym
 import chapsym.numbers
 from benchmarks.trade.reference import continuous, true_error, truth
-from chapsym.accuracy import Method, Request, accurate, answer, distance, take
+from chapsym.accuracy import Method, Request, accurate, answer, distance, foreseen, take
 from chapsym.accuracy.answer import exact_values
 from chapsym.dynamics import BadInput, kernels
 from chapsym.dynamics.attitudes import initial_attitude
@@ -89,6 +89,16 @@ def test_looser_targets_cost_less():
     assert answered(1e-18).choice.method.label == "quad"
     assert answered(1e-6).choice.method.label == "double"
     assert asked(1e-13, "state").choice.method.label == "quad"
+
+
+def test_what_float64_can_promise_of_a_contact_is_of_the_size_of_the_ball():
+    """1e-12 of the radius, in metres: less than that is left to double-double."""
+    for radius, least, more in ((0.05, 1e-13, 1e-14), (20.0, 1e-10, 3e-12)):
+        ball = chapsym.Ball.from_inertia(radius**2 * np.array((0.8, 0.82, 0.86)), mass=2.0, radius=radius)
+        for accuracy, precision in ((least, "double"), (more, "double-double")):
+            K = radius**2 * np.array((0.001, 0.002, 0.1))
+            request = Request(ball, K, GAMMA, 1.0, accuracy, "contact")
+            assert foreseen(request, 60.0).method.precision == NAMED[precision], (radius, accuracy)
 
 
 def test_a_law_that_promises_too_much_is_found_out(monkeypatch):

@@ -333,6 +333,7 @@ def test_roll_refuses_in_one_sentence_what_no_run_can_have():
         (line, (3, -2, 1), 0.01, 100, {}, "a principal moment of 0"),
         (heavy, (1, 2, 0), 1e-9, 10**13, {}, "10000000000001 states of 1 balls do not fit into memory"),
         (heavy, (1e300, 1e300, 0), 0.1, 10, {}, "the ball turns too far for float64"),
+        (heavy, np.ones((3, 3)), 0.1, 9, {"gamma": np.eye(3)[:2]}, "of ball .* and of the vectors do not broadcast"),
         (heavy, (1, 2, 0), 0.1, 10, {"order": 0}, "order must be one of 2, 4, 6, 8, not 0"),
         (heavy, (0.67, 0.09, -0.73), 2.0, 10, {"gamma": GAMMA, "accuracy": 1e-10}, "an accuracy of 1e-10 after 20 s"),
     ):
