@@ -134,10 +134,15 @@ def test_workers_with_another_chapsym_are_one_sentence(two, path, monkeypatch):
         ("nonsense://x", "is no address of a Dask"),
     ],
 )
-def test_a_scheduler_that_is_not_there_is_one_sentence(path, monkeypatch, address, words):
+def test_a_scheduler_that_is_not_there_is_one_sentence_and_leaves_all_as_it_was(path, monkeypatch, address, words):
     monkeypatch.setattr(jobs, "REACHED", 1.0)
     with pytest.raises(BadInput, match=words):
         sweep.run_to_store(plan_from(SCENE), path, address)
+    assert not path.exists()
+    sweep.run_to_store(plan_from(SCENE), path)
+    with pytest.raises(BadInput, match=words):
+        sweep.run_to_store(plan_from(SCENE), path, address, fresh=True)
+    assert formats.load(path).attrs["complete"] is True
 
 
 def test_a_scheduler_without_workers_is_one_sentence(path, monkeypatch):

@@ -8,7 +8,7 @@ marks.
 import threading
 import time
 from collections.abc import Callable
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -179,11 +179,12 @@ def run_to_store(
     Raises BadInput if the disk refuses, if the store is of another run or held by another process, and if the cluster
     or its last worker is lost; what was done by then is kept.
     """
-    with Store.of(path, plan, fresh) as store:
+    # An address where nobody answers leaves all as it was.
+    with nullcontext() if scheduler is None else jobs.workers(scheduler) as crew, Store.of(path, plan, fresh) as store:
         tally = Tally(plan, report)
         if store.complete:
             return Outcome(_failed(store.path), nothing_to_do=True)
-        lost = _missing(plan, store, tally, scheduler)
+        lost = _missing(plan, store, tally, crew)
         if not lost:
             store.finish()
         of_balls = {(plan.chunks[i].start, plan.chunks[i].stop): lost[i] for i in lost}
@@ -261,8 +262,8 @@ def unit(text: str, about: Data, path: str, chunk: int, segment: int, state: Sta
 _plan = lru_cache(maxsize=4)(plan_from)
 
 
-def _missing(plan: Plan, sink: "Memory | Store", tally: Tally, scheduler: str | None = None) -> dict[int, str]:
-    """Runs what is missing, some chunks abreast on all cores or on the workers of a scheduler; why chunks were lost.
+def _missing(plan: Plan, sink: "Memory | Store", tally: Tally, crew: jobs.Crew | None = None) -> dict[int, str]:
+    """Runs what is missing, some chunks abreast on the workers of a scheduler or on all cores; why chunks were lost.
 
     Raises SceneError for workers where the plan has no scene, one has another chapsym, or the disk refuses.
     """
@@ -291,18 +292,18 @@ def _missing(plan: Plan, sink: "Memory | Store", tally: Tally, scheduler: str | 
     lost: dict[int, str] = {}
     sent: tuple[str, Data, str] | None = None
     team: AbstractContextManager[jobs.Crew]
-    if scheduler is None:  # the higher precisions set the precision of a whole process
+    if crew is None:  # the higher precisions set the precision of a whole process
         team = jobs.threads(1 if isinstance(plan.model, Chosen) else min(ABREAST, cores()))
     else:
         assert isinstance(sink, Store)
         _plan(plan.scene)
-        sent, team = (plan.scene, provenance(plan), str(sink.path)), jobs.workers(scheduler)
+        sent, team = (plan.scene, provenance(plan), str(sink.path)), nullcontext(crew)
     with team as crew:
         try:
             jobs.run((chain(chunk) for chunk in range(len(plan.chunks))), crew)
         except BaseException as error:
             tally.stopped = True
-            if scheduler is None or isinstance(error, BadInput) or not isinstance(error, Exception):
+            if sent is None or isinstance(error, BadInput) or not isinstance(error, Exception):
                 raise
             raise SceneError(f"a worker of the cluster has not this chapsym: {type(error).__name__}: {error}") from None
     return dict(sorted(lost.items()))
