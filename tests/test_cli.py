@@ -102,6 +102,8 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["check", "--states", "0"], "--states"),
         (["check", "--states", "99999999999999999999"], "--states"),
         (["certify", "motion", "--foo"], "No such option: --foo (see chapsym certify motion --help)"),
+        (["certify", "motion", "--digits"], "'--digits' requires an argument. (see chapsym certify motion --help)"),
+        (["step", "--json=1"], "Option '--json' does not take a value. (see chapsym step --help)"),
         (["show", "."], "'.' is no result"),
         (["report", "-o", "x.pdf"], "the output must end in .html or .md or .tex or .json"),
         (["report", "-o", "x"], "the output must end in .html or .md or .tex or .json"),
@@ -218,7 +220,10 @@ def test_output_that_cannot_be_written_is_one_sentence_and_that_nobody_reads_end
     command = [sys.executable, "-m", "chapsym", *STEP]
     with open("/dev/full", "w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-    assert (done.returncode, done.stderr) == (2, "chapsym: the output cannot be written: No space left on device\n")
+    assert (done.returncode, done.stderr) == (
+        2,
+        "chapsym: standard output cannot be written: No space left on device\n",
+    )
     reader, writer = os.pipe()
     os.close(reader)
     done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False)

@@ -96,8 +96,7 @@ def main() -> NoReturn:
             _abandon_output()
         raise
     except TyperException as error:
-        place = getattr(getattr(error, "ctx", None), "command_path", "chapsym")
-        fail(f"{error.format_message()} (see {place} --help)", 2)
+        fail(f"{error.format_message()} (see {_called(typer.main.get_command(app))} --help)", 2)
     except (KeyboardInterrupt, typer.Abort) as stop:
         if isinstance(stop.__cause__, EOFError):  # typer takes one for the end of an answer, and we ask nothing
             raise stop.__cause__ from None
@@ -114,7 +113,7 @@ def main() -> NoReturn:
         if error.errno in NOT_OF_OUTPUT and error.strerror == os.strerror(error.errno):  # that of a pipe is another
             fail(NOT_OF_OUTPUT[error.errno], 2)
         _silence_output()
-        fail(f"the output cannot be written: {error.strerror or error}", 2)
+        fail(f"standard output cannot be written: {error.strerror or error}", 2)
     except RuntimeError as error:
         if "can't start new thread" not in str(error):
             raise
@@ -164,6 +163,16 @@ def plain(command: Any) -> Any:
     for one in getattr(command, "commands", {}).values():
         plain(one)
     return command
+
+
+def _called(command: Any) -> str:
+    """The command with its subcommands as called; of an option without its value typer does not say which it is of."""
+    path = "chapsym"
+    for word in sys.argv[1:]:
+        if (command := getattr(command, "commands", {}).get(word)) is None:
+            break
+        path += f" {word}"
+    return path
 
 
 def _abandon_output() -> NoReturn:
