@@ -1,6 +1,7 @@
 """A certificate of a motion of the continuous ball: the frames of a certified motion, and their start."""
 
 import math
+import time
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 
@@ -24,26 +25,29 @@ GUARD, MORE, MOST = 48, 1.5, 512
 SIMPLE, KNOWN = 10**18, 512
 
 
-def check_start(start: Start) -> None:
-    """Raises BadInput for principal axes other than the given axes, and for a rotor with π in its numbers."""
+def check_start(start: Start, frames: int) -> None:
+    """Raises BadInput for principal axes other than the given axes, a rotor with π in its numbers, too many frames."""
+    if frames > checker.form.MOST:
+        raise BadInput(f"a certificate has at most {checker.form.MOST} frames, not {frames}")
     if start.axes is not None:
         raise BadInput("a certificate is of principal axes: give the principal moments, and all vectors in their axes")
     if any(x.of_pi for x in start.rotor):
         raise BadInput("a certificate has the rotor's angular momentum as rational numbers: give it in kg m^2/s")
 
 
-def motion(start: Start, found: CertifiedMotion, progress: Callable[[str], None] = lambda sentence: None) -> Document:
+def motion(
+    start: Start, found: CertifiedMotion, progress: Callable[[str], None] = lambda what: None, limit: float = math.inf
+) -> Document:
     """The certificate of the frames from a start, accepted by the checker.
 
     The checker tries increasing bits, as it loses some bits per turn, more for a ball with unequal moments.  Raises
-    BadInput if it accepts no certificate with MOST bits beyond those of the digits, and as `check_start` does.
+    BadInput if it accepts no certificate with MOST bits beyond those of the digits, or none of those that it began to
+    check within `limit` seconds, and as `check_start` does.
     """
-    check_start(start)
-    if len(found.times) > checker.form.MOST:
-        raise BadInput(f"a certificate has at most {checker.form.MOST} frames, not {len(found.times)}")
-    digits = math.ceil(found.digits * math.log2(10))
+    check_start(start, len(found.times))
+    digits, until = math.ceil(found.digits * math.log2(10)), time.monotonic() + limit
     bits, why = digits + GUARD, ""
-    while bits <= digits + MOST:
+    while bits <= digits + MOST and (not why or time.monotonic() < until):
         progress(f"the checker tries {bits} bits")
         data = document(start, found, bits)
         try:

@@ -249,14 +249,12 @@ def motion(
     given = load(scene)
     start, times = exact_motion(given)
     if certificate is not None:
-        check_start(start)
+        check_start(start, len(times))
     result = None if against is None else formats.load(against).load()
     if result is not None:
         check_scene(result, str(given.toml))
     with telling() as progress:
         found = follow(start, times, digits, limit=limit, progress=progress)
-        if certificate is not None and found.stopped is None:
-            write(certificate, certified(start, found, progress))
     written = found.write()
     errors = {}
     if result is not None:
@@ -264,6 +262,9 @@ def motion(
         written["errors"] = {name: error if isfinite(error) else None for name, error in errors.items()}
     if output is not None:
         write(output, case_of(scene.stem, given.title, start) | written)
+    if certificate is not None and found.stopped is None:
+        with telling(every=0.0) as progress:
+            write(certificate, certified(start, found, progress, limit))
     if as_json:
         print_json(written)
     elif found.times:

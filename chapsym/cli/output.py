@@ -75,13 +75,13 @@ def counted(n: int, noun: str) -> str:
     return f"{n} {noun}{'' if n == 1 else 's'}"
 
 
-def now_and_then() -> Callable[[str], None]:
-    """A function of sentences that prints one of them every few seconds."""
+def now_and_then(pause: float) -> Callable[[str], None]:
+    """A function of sentences that prints one of them every `pause` seconds."""
     last = time.monotonic()
 
     def tell(sentence: str) -> None:
         nonlocal last
-        if time.monotonic() - last >= PAUSE:
+        if time.monotonic() - last >= pause:
             last = time.monotonic()
             note(sentence)
 
@@ -118,10 +118,10 @@ def check_known(kind: str, names: Iterable[str], known: Iterable[str], more: str
 
 
 @contextmanager
-def telling() -> Iterator[Callable[[str], None]]:
-    """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
+def telling(every: float = PAUSE) -> Iterator[Callable[[str], None]]:
+    """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every some seconds."""
     try:
-        yield say if sys.stderr.isatty() else now_and_then()
+        yield say if sys.stderr.isatty() else now_and_then(every)
     finally:
         quiet()
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from commands import chapsym as command
@@ -13,8 +14,8 @@ from flint import ctx
 import chapsym.proofs
 from chapsym import checker
 from chapsym.certificates import motion
-from chapsym.cli import report
-from chapsym.dynamics import BadInput
+from chapsym.cli import certify, report
+from chapsym.dynamics import BadInput, enclosed_motion
 from chapsym.dynamics.enclosed_motion import follow
 from chapsym.dynamics.flow.start import Principal, Start, balls, fixed
 from chapsym.dynamics.levels.balls import unit
@@ -136,3 +137,20 @@ def test_what_the_checker_cannot_follow_is_refused_in_a_sentence(tmp_path, monke
     monkeypatch.setattr(checker.form, "MOST", 2)
     with pytest.raises(BadInput, match="at most 2 frames, not 3"):
         motion.motion(start, found)
+
+
+def test_more_frames_than_a_certificate_has_are_refused_before_the_motion_is_followed(tmp_path, monkeypatch):
+    monkeypatch.setattr(checker.form, "MOST", 2)
+    monkeypatch.setattr(enclosed_motion, "follow", None)
+    with pytest.raises(BadInput, match="at most 2 frames, not 3"):
+        certify.motion(scene(tmp_path), certificate=tmp_path / "certificate.json")
+
+
+def test_what_is_proved_is_written_where_the_checker_reaches_the_limit(tmp_path, monkeypatch, capsys):
+    output = tmp_path / "motion.json"
+    monkeypatch.setattr(checker.rolling, "MOST_STEPS", 1)
+    monkeypatch.setattr(motion, "time", SimpleNamespace(monotonic=iter((0, 1e9)).__next__))
+    with pytest.raises(BadInput, match="ask for less time or fewer digits"):
+        certify.motion(scene(tmp_path), 10, certificate=tmp_path / "certificate.json", output=output)
+    assert capsys.readouterr().err.count("the checker tries") == 1
+    assert len(read(output)["frames"]) == 3
