@@ -269,3 +269,9 @@ def test_numpy_may_be_told_to_raise_where_a_number_is_too_small():
         assert chapsym.step(tiny, [1e3 * momentum, momentum], UP).status.tolist() == [chapsym.Status.UNREACHABLE, 0]
         assert chapsym.Ball.from_inertia(np.diag([3, 4, 5]) + 1e-200 * np.ones((3, 3)), D=1).is_one
         assert chapsym.step_n(BALL_N, chapsym.skew(momentum), UP).status == 0
+        assert chapsym.step(tiny, (5e-324, 0, 1e-310), UP, precision="double-double").status == 0
+        assert chapsym.trajectory(tiny, momentum, UP, 5, proved=True).proved.momentum is not None
+        assert chapsym.trajectory(tiny, (5e-324, 0, 1e-310), UP, 5, time_step=0.1).at([0.25]).gamma.shape == (1, 3)
+        assert chapsym.certified_motion(tiny, (1e-200, 1e-170, 1e-300), UP, [0, 1]).stopped is None
+        assert chapsym.roll(tiny, (1e-170, 1e-150, 1e-320), 0.1, 5).error < 1e-6
+        assert chapsym.rotation_number(chapsym.Ball((7.9e-5, 0.36, 4.5e6), 0), 1e-270, (0, 1, 1e-113)) < 1

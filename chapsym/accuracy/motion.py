@@ -287,6 +287,7 @@ def _exact_momentum(ball: Ball, omega: ArrayLike, gamma: ArrayLike, time_step: A
     return epsilon * (turning + D[..., np.newaxis] * (spin - along / length * upwards)), upwards
 
 
+@np.errstate(under="ignore")
 @in_given_axes
 def _rolled(
     ball: Ball, omega: Floats, gamma: Floats, attitude: bool | Floats, contact: bool, precision: str | Precision,

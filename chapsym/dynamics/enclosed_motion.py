@@ -366,6 +366,7 @@ class _Search:
             turns = fraction(omega) * self.times[-1]
         return max(exponent_of(turns), 0) if turns else 0
 
+    @np.errstate(under="ignore")
     def attempt(self, bits: int) -> int | None:
         """Follows the motion with this many bits; returns the number of missing bits, or None if the time is up."""
         missing, frames = -math.inf, list[Frame]()

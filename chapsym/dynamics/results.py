@@ -412,6 +412,7 @@ class Trajectory:
         """The time of each frame in seconds; raises BadInput if the run has no time step."""
         return self.index * self._time_step()
 
+    @np.errstate(under="ignore")
     def at(self, times: ArrayLike) -> Moments:
         """The states at any times between the frames, as the dense output of `solve_ivp`: 𝒦, γ, ω, attitude, contact.
 

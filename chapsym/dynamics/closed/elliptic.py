@@ -61,6 +61,7 @@ def _descent(u: Floats, modulus: float, complement: float) -> tuple[Floats, Floa
     return sn, cn, np.sqrt(complement * complement + (modulus * cn) ** 2)
 
 
+@np.errstate(under="ignore")
 def _pulses(u: Floats, modulus: float, complement: float) -> tuple[Floats, Floats, Floats]:
     """Sums over the pulses at u = 2mK, the Fourier series turned by Poisson's formula: one pulse for k = 1.
 

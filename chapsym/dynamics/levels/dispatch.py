@@ -139,6 +139,7 @@ def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int,
     return result(q, K, g, None if low is None else result(*low))
 
 
+@np.errstate(under="ignore")
 def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
     """The two frames of a run of one step; the attitudes are the identity and the rotation."""
     frames = _two_frames(precision, balls, order)

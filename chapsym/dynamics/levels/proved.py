@@ -73,6 +73,7 @@ def of_step(balls: Balls, q: Floats, K: Floats, g: Floats) -> Floats:
     return found
 
 
+@np.errstate(under="ignore")
 def length(v: Floats) -> Floats:
     """|v| of vectors, without overflow of their squares."""
     most = np.abs(v).max(axis=-1, keepdims=True)
