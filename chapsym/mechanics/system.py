@@ -6,6 +6,7 @@ import math
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
+from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
@@ -16,6 +17,8 @@ import sympy as sp
 
 from chapsym.numbers import brief
 from chapsym.prove.registers import raised
+from chapsym.rationals import exact_fraction
+from chapsym.rationals import rational as of_text
 
 #: The length of a step.
 STEP = sp.Symbol("step_length")
@@ -231,8 +234,8 @@ class System:
         if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
         named = *self.coordinates, *self.parameters
-        if strange := [x for x in named if not x.is_commutative or x.is_real is False or x.is_zero]:
-            raise BadSystem(f"{self.name}: {strange[0]} must be a symbol of real numbers, of 0 and of others")
+        if odd := [x for x in named if not x.is_commutative or x.is_real is False or x.is_zero or type(x) is sp.Wild]:
+            raise BadSystem(f"{self.name}: {odd[0]} must be a symbol of real numbers, of 0 and of others")
         symbols = (*self.coordinates, *self.velocities, *self.parameters, STEP)
         names = [x.name for x in symbols]
         if len(set(names)) < len(names):
@@ -450,20 +453,22 @@ def loaded(path: str | Path) -> System:
     return found
 
 
-def _refuse(value: Any) -> None:
-    """Raises TypeError for an object that has a float, or a fraction, and is no single real number."""
+def _read(value: Any) -> Any:
+    """A number, of a text or a Decimal its fraction; raises TypeError for an object that is no single real number."""
     strange = np.ma.MaskedArray | np.timedelta64
     if isinstance(value, strange) or np.iscomplexobj(value) or np.ndim(value):
         raise TypeError
+    if isinstance(value, str):
+        return of_text(value, "a number")
+    return exact_fraction(value) if isinstance(value, Decimal) else value
 
 
 def rational(value: Any, what: str) -> sp.Rational:
     """An exact number of a system; raises BadSystem, with the value, if it is no number."""
     try:
-        _refuse(value)
         is_long = isinstance(value, sp.Float) and value._prec > sp.Float(0.5)._prec
         is_float = isinstance(value, float | sp.Float)
-        found = Fraction(str(value) if is_long else repr(float(value)) if is_float else value)
+        found = Fraction(_read(str(value)) if is_long else repr(float(value)) if is_float else _read(value))
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
         raise BadSystem(f"{what} is {brief(value)}, which is no rational number") from None
     return sp.Rational(found.numerator, found.denominator)
@@ -472,8 +477,7 @@ def rational(value: Any, what: str) -> sp.Rational:
 def number(value: Any, what: str) -> float:
     """The same as a finite float."""
     try:
-        _refuse(value)
-        found = float(Fraction(value) if isinstance(value, str) else value)
+        found = float(_read(value))
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
         raise BadSystem(f"{what} is {brief(value)}, which is no number") from None
     if not math.isfinite(found):

@@ -186,6 +186,8 @@ def test_numbers_that_are_no_integers_and_any_names_are_taken(method):
         ({"start": {x: np.ma.masked}}, {}, "the start of x is masked, which is no number"),
         ({"parameters": {k: np.complex128(1j)}}, {}, "the parameter k is .*, which is no number"),
         ({"start": {x: "one"}}, {}, "the start of x is 'one', which is no number"),
+        ({"start": {x: "1e999999999"}}, {}, "the start of x is '1e999999999', which is no number"),
+        ({"parameters": {sp.Wild("q"): 1}}, {}, "q_ must be a symbol of real numbers"),
         ({"step": "0.1s"}, {}, "the step is '0.1s', which is no number"),
         ({"constraints": [vz - y * vx], "start": {vx: 1, vz: 2}}, {}, "are 2 off the constraints; leave out those"),
         ({"holonomic": [x - 1]}, {}, "the start is 1 off the holonomic constraints"),

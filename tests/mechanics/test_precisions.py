@@ -1,5 +1,6 @@
 """Motions in other numbers than float64: exact inputs, the reference in mpmath, and enclosures of each step."""
 
+from decimal import Decimal
 from fractions import Fraction
 
 import mpmath
@@ -179,6 +180,7 @@ def test_an_enclosure_that_is_too_wide_says_at_which_step():
     [
         ({}, {"precision": "exact"}, "precision must be .*chapsym.Digits"),
         ({"parameters": {k: sp.sqrt(2)}}, {}, "the parameter k is sqrt.2., which is no rational number"),
+        ({"parameters": {k: Decimal("1e999999999")}}, {}, "the parameter k is .*, which is no number"),
         ({"step": sp.pi}, {}, "the length of a step is pi, which is no rational number"),
         ({"start": {y: sp.sqrt(2)}}, {}, "the start of y is sqrt.2., which is no rational number"),
         ({"integrals": {"one": sp.exp(x)}}, {}, r"exp.* is not sin, cos, a square root"),
