@@ -367,10 +367,10 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
 
 def time_limit(value: float) -> float:
     """A limit in seconds; raises BadInput for anything but a positive number."""
-    real = is_whole(value) or isinstance(value, float | np.floating)
-    if not real or not value > 0:
+    found = value if is_whole(value) or isinstance(value, float) else numbers(value, "limit")
+    if np.ndim(found) or not found > 0:
         raise BadInput(f"limit must be a positive number of seconds, not {brief(value)}")
-    return float(min(value, MOST_STEPS))
+    return float(min(found, MOST_STEPS))
 
 
 def step_numbers(index: ArrayLike) -> np.ndarray:

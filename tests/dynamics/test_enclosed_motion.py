@@ -7,6 +7,7 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
+import sympy as sp
 from budget import slow
 from certificate_changes import resealed
 from commands import chapsym as command
@@ -185,6 +186,12 @@ def test_bad_input_is_told_in_a_sentence(wrong, sentence):
     good = {"ball": BALL, "angular_momentum": (1, 2, 3), "gamma": ("2/7", "3/7", "6/7"), "times": 1}
     with pytest.raises(chapsym.BadInput, match=sentence):
         chapsym.certified_motion(**(good | wrong))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("limit", [np.float16(600), F(600), Decimal(600), sp.Integer(600), 10**400, float("inf")])
+def test_a_limit_may_be_a_number_of_any_kind(limit):
+    assert chapsym.certified_motion(BALL, (1, 2, 3), ("2/7", "3/7", "6/7"), 1, limit=limit).stopped is None
 
 
 @pytest.mark.parametrize("power", ["e400", "e-400"])
