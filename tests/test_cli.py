@@ -463,3 +463,13 @@ def test_on_a_terminal_a_line_says_how_much_is_done_and_how_long_the_rest_takes(
     assert screen.getvalue().split("\r\033[K") == [
         "", "proving: 1 of 4", "proving: 2 of 4, about 2 s left", "proving: 4 of 4", "",
     ]  # fmt: skip
+
+
+def test_in_a_log_a_line_every_half_minute_says_how_much_is_done(monkeypatch):
+    log, ticks = io.StringIO(), iter([0.0, 1.0, 2.0, 30.0, 31.0, 32.0, 40.0, 41.0])
+    monkeypatch.setattr(sys, "stderr", log)
+    monkeypatch.setattr(output, "time", SimpleNamespace(monotonic=lambda: next(ticks)))
+    with output.progress_bar("proving", 60) as shown:
+        for done in (1, 30, 31):
+            shown(done)
+    assert log.getvalue() == "chapsym: proving: 30 of 60, about 30 s left\n"

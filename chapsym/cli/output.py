@@ -22,7 +22,7 @@ Data = files.Data
 Row = Mapping[str, object]
 
 #: Seconds between two lines of progress where standard error is no terminal.
-PAUSE = 5.0
+PAUSE, SELDOM = 5.0, 30.0
 #: A word that is too long to read: a number of thousands of digits, a long path.
 LONG = re.compile(r"(\S{150})\S{100,}(\S{150})")
 #: The name of a result that is printed.
@@ -128,15 +128,10 @@ def telling(every: float = PAUSE) -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
-    """Yields a function of the number done and the total: a changing line on a terminal, else nothing."""
-    if not sys.stderr.isatty():
-        yield lambda done, of=total: None
-        return
+    """Yields a function of the number done and the total, as `telling` does of a sentence, but seldom in a log."""
     left = _time_left()
-    try:
-        yield lambda done, of=total: say(f"{label}: {done} of {of}{left(done, of)}")
-    finally:
-        quiet()
+    with telling(SELDOM) as tell:
+        yield lambda done, of=total: tell(f"{label}: {done} of {of}{left(done, of)}")
 
 
 @contextmanager
