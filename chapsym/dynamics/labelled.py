@@ -184,7 +184,8 @@ def of_run(run: Any) -> Arrays:
             one = OUTPUTS[whose(name)]
             inner = values.reshape(count, len(run.index), *values.shape[len(shape) + 1 :])
             inner = inner.astype(np.float64) if inner.dtype == np.float32 else inner
-            dims = () if name.endswith(BOUND) else one.dims_in(n)
+            # In three dimensions, too, those of a `BallN` are matrices.
+            dims = () if name.endswith(BOUND) else one.dims_in(n if inner.ndim == 2 + len(one.dims) else 0)
             variables[name] = Labelled(("ball", "frame", *dims), inner, one.attrs(n, motion, name))
     variables |= {name: Labelled(("ball",), getattr(run, name).reshape(count), of) for name, of in OUTCOME.items()}
     if run.error is not None:

@@ -114,6 +114,9 @@ def test_in_n_dimensions_momentum_and_attitude_are_matrices():
     run = chapsym.trajectory_n(chapsym.BallN((1, 2, 0.5, 3), 3), momentum - momentum.T, (0.1, 0.1, 0.7, 0.7), 4)
     assert run.to_xarray().momentum.dims == ("ball", "frame", "row", "column")
     assert {"momentum_1_2", "gamma_4"} <= set(run.to_pandas())
+    run = chapsym.trajectory_n(chapsym.BallN((1, 2, 4), 3), chapsym.skew((0.1, 0.2, 0.3)), (0, 0, 1), 4, attitude=True)
+    assert run.to_xarray().attitude.dims == run.to_xarray().momentum.dims == ("ball", "frame", "row", "column")
+    assert {"attitude_3_3", "gamma_3"} <= set(run.to_pandas())
 
 
 @pytest.mark.parametrize(("package", "method"), [("xarray", "to_xarray"), ("pandas", "to_pandas")])
