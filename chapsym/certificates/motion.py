@@ -41,8 +41,7 @@ def motion(
     """The certificate of the frames from a start, accepted by the checker.
 
     The checker tries increasing bits, as it loses some bits per turn, more for a ball with unequal moments.  Raises
-    BadInput if it accepts no certificate with MOST bits beyond those of the digits, or none of those that it began to
-    check within `limit` seconds, and as `check_start` does.
+    BadInput if it accepts none with MOST bits beyond those of the digits, or begun in `limit` s, and as `check_start`.
     """
     check_start(start, len(found.times))
     digits, until = math.ceil(found.digits * math.log2(10)), time.monotonic() + limit

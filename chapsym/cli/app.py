@@ -96,7 +96,7 @@ def main() -> NoReturn:
             _abandon_output()
         raise
     except TyperException as error:
-        fail(f"{error.format_message()} (see {_called(typer.main.get_command(app))} --help)", 2)
+        fail(f"{error.format_message()} (see chapsym{_called(typer.main.get_command(app), sys.argv[1:])} --help)", 2)
     except (KeyboardInterrupt, typer.Abort) as stop:
         if isinstance(stop.__cause__, EOFError):  # typer takes one for the end of an answer, and we ask nothing
             raise stop.__cause__ from None
@@ -165,14 +165,10 @@ def plain(command: Any) -> Any:
     return command
 
 
-def _called(command: Any) -> str:
-    """The command with its subcommands as called; of an option without its value typer does not say which it is of."""
-    path = "chapsym"
-    for word in sys.argv[1:]:
-        if (command := getattr(command, "commands", {}).get(word)) is None:
-            break
-        path += f" {word}"
-    return path
+def _called(command: Any, words: list[str]) -> str:
+    """The subcommands that were called; of an option without its value typer does not say which it is of."""
+    inner = getattr(command, "commands", {}).get(words[0]) if words else None
+    return "" if inner is None else f" {words[0]}{_called(inner, words[1:])}"
 
 
 def _abandon_output() -> NoReturn:

@@ -109,7 +109,7 @@ class StepNotTaken(ArithmeticError):
         super().__init__(f"{where}{status.sentence}{extent}")
 
 
-@np.errstate(under="ignore")
+@np.errstate(over="ignore", under="ignore")
 def explain(status: int, K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float) -> Status:
     """Why a step was not taken: UNREACHABLE if no rotation at all has this momentum."""
     inertia = np.array(moments(J))
@@ -117,8 +117,7 @@ def explain(status: int, K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float) 
     if rounded or status in (Status.FOLDED, Status.NOT_CONVERGED):
         # Scaled to Λmax below 1: then no rotation has a component above 2, and nothing overflows.
         shift = -int(np.frexp(J.sum() + D)[1])
-        with np.errstate(over="ignore", under="ignore"):
-            k = np.clip(np.ldexp(K, shift), -4.0, 4.0)
+        k = np.clip(np.ldexp(K, shift), -4.0, 4.0)
         if np.abs(k).max() == 4.0:
             return Status.UNREACHABLE
         if rounded:

@@ -15,10 +15,9 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from chapsym import rationals
 from chapsym.numbers import brief
 from chapsym.prove.registers import raised
-from chapsym.rationals import exact_fraction
-from chapsym.rationals import rational as of_text
 
 #: The length of a step.
 STEP = sp.Symbol("step_length")
@@ -459,8 +458,8 @@ def _read(value: Any) -> Any:
     if isinstance(value, strange) or np.iscomplexobj(value) or np.ndim(value):
         raise TypeError
     if isinstance(value, str):
-        return of_text(value, "a number")
-    return exact_fraction(value) if isinstance(value, Decimal) else value
+        return rationals.rational(value, "a number")
+    return rationals.exact_fraction(value) if isinstance(value, Decimal) else value
 
 
 def rational(value: Any, what: str) -> sp.Rational:

@@ -202,11 +202,10 @@ def run_single(
         raise BadInput('the contact point leaves the range of float32, 3.4e38 metres; use precision="double"')
 
 
-@np.errstate(under="ignore")
+@np.errstate(over="ignore", under="ignore")  # which is refused
 def rounded(balls: Balls) -> Balls:
     """The balls in float32, γ divided by its length, with the radius 1; raises BadInput beyond the range of float32."""
-    with np.errstate(over="ignore", under="ignore"):  # which is refused
-        largest = largest_moment(balls.mass_tensor, balls.D)
+    largest = largest_moment(balls.mass_tensor, balls.D)
     for name, size in (("momentum", np.abs(balls.momentum).max(axis=1)), ("moment of inertia", largest)):
         outside = (size > 0.0) & ~((size >= RANGE[0]) & (size <= RANGE[1]))
         if outside.any():

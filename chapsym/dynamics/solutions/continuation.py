@@ -166,7 +166,7 @@ def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = 
     )  # fmt: skip
 
 
-@np.errstate(under="ignore")
+@np.errstate(over="ignore", under="ignore")
 def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Fold:
     """The fold of a branch along t𝒦: the largest t to which the branch can be continued, and the rotation there.
 
@@ -211,15 +211,13 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
         raise BadInput("momentum must not be 0: a branch folds along t times the momentum")
     # |𝒦| ≤ 2Λmax, as is every component: at 4Λmax every branch has folded.
     start = np.full(len(D), 0.0 if rotation is None else 1.0)
-    with np.errstate(over="ignore", under="ignore"):
-        end = np.maximum(4 * largest_moment(J, D), 2 * start * size)
+    end = np.maximum(4 * largest_moment(J, D), 2 * start * size)
     if not np.isfinite(end).all():
         raise BadInput("the ball or its momentum is too near to the range of float64 for a fold; take other units")
     path = np.stack([start[:, np.newaxis] * flat, end[:, np.newaxis] * (flat / size[:, np.newaxis])], axis=1)
     turn = (1.0, 0.0, 0.0, 0.0) if rotation is None else rotation
     found = follow(ball, path.reshape(*shape, 2, 3), gamma, turn).fold
-    with np.errstate(over="ignore", under="ignore"):
-        reach = start + found.reach.reshape(-1) * (end / size - start)
+    reach = start + found.reach.reshape(-1) * (end / size - start)
     return Fold(reach.reshape(shape), found.rotation, found.settled)
 
 

@@ -179,7 +179,6 @@ def run_to_store(
     Raises BadInput if the disk refuses, if the store is of another run or held by another process, and if the cluster
     or its last worker is lost; what was done by then is kept.
     """
-    # An address where nobody answers leaves all as it was.
     with nullcontext() if scheduler is None else jobs.workers(scheduler) as crew, Store.of(path, plan, fresh) as store:
         tally = Tally(plan, report)
         if store.complete:
