@@ -25,7 +25,7 @@ ROOMS = {
     "sources": set(),
     "prove": {"checker", "derive", "files", "sources", "workers"},
     "codegen": {"checker", "derive", "files", "prove"},
-    "mechanics": {"codegen", "derive", "dynamics", "numbers", "prove"},
+    "mechanics": {"codegen", "derive", "dynamics", "numbers", "prove", "rationals"},
     "dynamics": {"extras", "generated", "numbers", "rationals"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers"},
