@@ -143,6 +143,7 @@ def test_a_scheduler_that_is_not_there_is_one_sentence_and_leaves_all_as_it_was(
     with pytest.raises(BadInput, match=words):
         sweep.run_to_store(plan_from(SCENE), path, address, fresh=True)
     assert formats.load(path).attrs["complete"] is True
+    assert sweep.run_to_store(plan_from(SCENE), path, address).nothing_to_do
 
 
 def test_a_scheduler_without_workers_is_one_sentence(path, monkeypatch):

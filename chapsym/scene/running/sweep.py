@@ -8,7 +8,7 @@ marks.
 import threading
 import time
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -179,11 +179,14 @@ def run_to_store(
     Raises BadInput if the disk refuses, if the store is of another run or held by another process, and if the cluster
     or its last worker is lost; what was done by then is kept.
     """
-    with nullcontext() if scheduler is None else jobs.workers(scheduler) as crew, Store.of(path, plan, fresh) as store:
-        tally = Tally(plan, report)
+    with ExitStack() as held:
+        workers = nullcontext() if scheduler is None else jobs.workers(scheduler)
+        is_new = fresh or not path.exists()  # then an address where nobody answers leaves all as it was
+        crew = held.enter_context(workers) if is_new else None
+        store, tally = held.enter_context(Store.of(path, plan, fresh)), Tally(plan, report)
         if store.complete:
             return Outcome(_failed(store.path), nothing_to_do=True)
-        lost = _missing(plan, store, tally, crew)
+        lost = _missing(plan, store, tally, crew if is_new else held.enter_context(workers))
         if not lost:
             store.finish()
         of_balls = {(plan.chunks[i].start, plan.chunks[i].stop): lost[i] for i in lost}
