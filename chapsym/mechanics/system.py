@@ -23,6 +23,8 @@ from chapsym.prove.registers import raised
 STEP = sp.Symbol("step_length")
 #: The largest accepted error of the constraints at the start, in their own units.
 NEAR = 1e-9
+#: The largest exponent: a kernel multiplies.
+MOST_POWER = 100
 
 
 class BadSystem(ValueError):
@@ -504,8 +506,10 @@ def several(value: object, what: str) -> tuple[Any, ...]:
 def _smooth(expr: sp.Expr, what: str) -> None:
     """Raises BadSystem for functions that kernels do not have."""
     known = sp.Add, sp.Mul, sp.Pow, sp.Number, sp.NumberSymbol, sp.Symbol, sp.sin, sp.cos, sp.tan
-    if strange := [e for e in sp.preorder_traversal(expr) if not isinstance(e, known)]:
-        raise BadSystem(f"{what} has {strange[0]}, which is not sin, cos, a square root or a whole power")
+    large = [x for x in expr.atoms(sp.Pow) if x.exp.is_Integer and abs(x.exp) > MOST_POWER]
+    if strange := [*(e for e in sp.preorder_traversal(expr) if not isinstance(e, known)), *large]:
+        upto = f"which is not sin, cos, a square root or a whole power up to {MOST_POWER}"
+        raise BadSystem(f"{what} has {strange[0]}, {upto}")
 
 
 def expression(value: object, what: str) -> sp.Expr:

@@ -170,7 +170,7 @@ def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
     """The same for a reader, a key and a text; None if nothing is known."""
     map_, found = read(data.attrs.get("discretisation")), far(data).get("motion")
     if "row" in data.dims and "time" in data.coords:
-        return "discretisation", "of a ball in more than three dimensions it is not estimated"
+        return "discretisation", "of a run of trajectory_n it is not estimated"
     if map_ is not None:
         return "discretisation", map_.sentence()
     if found is None:
