@@ -470,7 +470,7 @@ class Moving(Model):
     """`chapsym.accuracy.motion.moved`: in double precision, all balls of a unit together."""
 
     name = "motion of the ball"
-    about = "the order and the steps that meet the accuracy, chosen for alike balls and verified on the run"
+    about = "long steps that meet the accuracy, chosen for each ball, with an estimate of the error"
     kernels = ROLLING
     motion = True
     whole = True
@@ -527,14 +527,14 @@ def accurate_parts(outputs: tuple[str, ...]) -> frozenset[str]:
 
 
 class Chosen(Model):
-    """`chapsym.accuracy.accurate`: precision, order and step chosen for each ball.
+    """`chapsym.accuracy.accurate`: precision and steps chosen for each ball.
 
     tell: called with each answer.  progress: called before each attempt.
     """
 
     name = "chosen for the accuracy"
     title = "automatic, accuracy-driven"
-    about = "the cheapest precision, order and step that meet the accuracy, verified on the run"
+    about = "long steps that meet the accuracy, in double precision or double-double, with an estimate of the error"
     kernels = ROLLING
     motion = True
     whole = True
