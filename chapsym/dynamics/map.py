@@ -188,7 +188,7 @@ def trajectory(
         branch (`Certificate.selected`).
     proved : bool, optional
         Whether `Trajectory.proved` has bounds of the distance of every frame from the exact orbit of the map.  A second
-        run, in double-double, carries the proof and takes about ten times as long as the run in "double".  Only for
+        run, in double-double, carries the proof and takes five to ten times as long as the run in "double".  Only for
         "double" and "double-double", and principal axes.
     threads : int, optional
         The number of cores that a batch may use; 0, the default, for all.  Digits and Enclosure use one.
@@ -206,7 +206,7 @@ def trajectory(
     StepNotTaken
         If one ball cannot take a step, with `index` and the `trajectory` before it.
     BadInput
-        As `step` does, and for counts that are not positive integers.
+        As `step` does, and for counts that are not whole numbers.
 
     References
     ----------

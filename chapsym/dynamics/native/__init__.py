@@ -52,5 +52,5 @@ _log = logging.getLogger("chapsym")
 @cache
 def _say_once() -> None:
     _log.warning(
-        "plain Python takes the steps, some hundred times slower than C: install a C compiler, then chapsym again"
+        "plain Python takes the steps, hundreds of times slower than C: install a C compiler, then chapsym again"
     )
