@@ -222,7 +222,7 @@ def motion(
     limit: Annotated[float, takes("S", "Seconds after which what is proved is given.")] = 600.0,
     against: Annotated[Path | None, takes("RESULT", "A result of the scene: a bound of its error is proved.")] = None,
     certificate: Annotated[Path | None, takes("FILE", "Write there what the separate checker judges.")] = None,
-    output: Output = None,
+    output: Annotated[Path | None, writes("FILE", "Write the frames there.")] = None,
     as_json: Json = False,
 ) -> None:
     """Enclose the motion of the continuous ball at the frames of a scene, with proved radii.

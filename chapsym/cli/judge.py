@@ -30,9 +30,9 @@ def judge(
 
     The columns are time, x, y, z, qw, qx, qy, qz and, for energy and momentum, vx, vy, vz, wx, wy, wz: m, s, rad, z up.
     A table without an attitude is judged by what it has.
-    Three files or more, with steps in one ratio, tell the order, and what no step takes away.  Other names of columns,
-    and the form t x y z qx qy qz qw without names, are known.  Where the first row is in another convention than the
-    motion (quaternion, axes, units), that is said, and there is no verdict.
+    Three files or more, with steps in one ratio, give the order, and the error that no step removes.  Other names of
+    columns, and the form t x y z qx qy qz qw without names, are known.  Where the first row is in another convention
+    than the motion (quaternion, axes, units), one sentence says so, and there is no verdict.
 
     Example: chapsym judge mine.csv --body mine.urdf
     """

@@ -1,6 +1,6 @@
 """The passes from the expressions of a kernel to assignments and outputs.
 
-Each pass can be omitted: the manifest has the operations that it saves, and `chapsym bench kernels` the time.
+Each pass can be omitted: the manifest has the operations that it saves.
 """
 
 from collections.abc import Collection, Iterator, Sequence

@@ -185,7 +185,7 @@ class Ball(Parameters):
     Raises
     ------
     BadInput
-        For a mass moment below 0, a D below 0, or a momentum operator that is singular.
+        For a mass moment below 0, a D below 0, a radius that is not positive, or a singular momentum operator.
 
     References
     ----------
