@@ -416,10 +416,10 @@ class Trajectory:
     def at(self, times: ArrayLike) -> Moments:
         """The states at any times between the frames, as the dense output of `solve_ivp`: 𝒦, γ, ω, attitude, contact.
 
-        Between two frames each is a quintic through the states, with their first and second derivatives by (2.3).  It
-        has order 6 in the time h between frames, with relative errors (of the contact point, in radii) up to
-        (|ω|h)⁶/46080, about 10⁻⁵ at one radian per frame.  A run of the map is interpolated in the same way; its
-        derivatives by (2.3) have the error of the map.  The result is in float64 at every precision of the run.
+        Between two frames each is a quintic through the states and their first two derivatives by (2.3), of order 6 in
+        the time h between frames.  For alike moments the errors of γ, attitude and contact point (in radii) are about
+        (|ω|h)⁶/46080; those of ω, and for unlike moments, are larger.  A run of the map is interpolated in the same
+        way; its derivatives by (2.3) have the error of the map.  The result is in float64 at every precision.
 
         Parameters
         ----------

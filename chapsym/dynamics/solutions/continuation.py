@@ -100,7 +100,7 @@ class Followed(Brief):
 def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> Followed:
     """Continues the rotation with the first momentum of a path along straight lines from each momentum to the next.
 
-    For moments with a ratio of 10⁴ the steps are so short that it ends as NOT_CONVERGED, after about half a minute.
+    A line that takes more than 5000 steps, as it may for very unlike moments, ends as NOT_CONVERGED.
 
     Parameters
     ----------
