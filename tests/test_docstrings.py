@@ -30,7 +30,11 @@ def entries(section):
 def test_a_name_has_its_sections_and_examples_that_run(name):
     found, one = sections(name), getattr(chapsym, name)
     if name in FUNCTIONS:
-        assert entries(found["Parameters"]) == list(inspect.signature(one).parameters)
+        parameters = inspect.signature(one).parameters
+        assert entries(found["Parameters"]) == list(parameters)
+        for names, kind in re.findall(r"^(\S[^:\n]*?) : (.*)$", found["Parameters"], re.MULTILINE):
+            for given in map(parameters.get, names.split(", ")):
+                assert kind.endswith(", optional") is (given.default is not given.empty), given
         assert {"Returns", "Examples"} <= found.keys()
         assert ">>>" in found["Examples"]
     else:

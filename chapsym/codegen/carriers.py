@@ -38,7 +38,7 @@ class Carrier:
         The text of the statement, an equation in a quotient ring whose sides differ.
     side : str
         "left" or "right".
-    steps : tuple
+    steps : tuple, optional
         The operations on the entries, in order; the methods add to them.
     """
 

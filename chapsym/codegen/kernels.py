@@ -46,7 +46,7 @@ class Kernel:
     factored : callable, optional
         A function that returns the same values in steps: named intermediate expressions, and the outputs in these
         names.
-    rows_of_three : bool
+    rows_of_three : bool, optional
         Whether the result is a matrix of three columns.
     letters : mapping of sympy.Symbol to sympy.Expr, optional
         Letters of the statements that are no arguments, with their meanings: the sine, cosine or square root of an

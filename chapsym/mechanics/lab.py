@@ -121,12 +121,12 @@ def measured(
     system : System
     method : str
         One of METHODS.
-    steps : int
+    steps : int, optional
     length : float, optional
         The time of a step; by default that of the system.
-    halve : bool
+    halve : bool, optional
         Whether the drift is also measured with steps of half the length.
-    decide : bool
+    decide : bool, optional
         Whether properties are also decided exactly, as far as possible.
 
     Returns

@@ -465,12 +465,12 @@ def moved(
     Parameters
     ----------
     system : System
-    method : str
+    method : str, optional
         One of METHODS: "dla" is the discrete Lagrange-d'Alembert principle at the midpoint.
-    steps : int
+    steps : int, optional
     length : number, optional
         The time of a step; by default that of the system.
-    every : int
+    every : int, optional
         The number of steps from one record to the next.
     precision : str or Precision, optional
         "double" is float64; "double-double", `chapsym.Digits(n)` and `chapsym.Enclosure(bits)` use exact parameters,

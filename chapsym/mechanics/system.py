@@ -164,21 +164,21 @@ class System:
         norm in `holonomic`.
     lagrangian : sympy.Expr
         In the coordinates, their velocities `dot(x)` and parameters; of degree two in the velocities.
-    constraints : sequence of sympy.Expr
+    constraints : sequence of sympy.Expr, optional
         Expressions that vanish, affine in the velocities.
-    holonomic : sequence of sympy.Expr
+    holonomic : sequence of sympy.Expr, optional
         Expressions that vanish, only in the coordinates.
     forces : mapping, optional
         {coordinate: generalized force along it}, in coordinates and velocities, for forces that are not in the
         Lagrangian.
-    parameters : mapping
+    parameters : mapping, optional
         {symbol: number}, each an int, a fraction, a float or a string such as "3/2".
-    start : mapping
+    start : mapping, optional
         {coordinate or velocity: number}, likewise; the default is 0 for coordinates, and for velocities the smallest
         that the constraints allow.
-    step : number
+    step : number, optional
         The default length of a step.
-    source : str
+    source : str, optional
         Its source in the literature.
     discrete : Discrete, optional
         A discretization of your own: the method "own".

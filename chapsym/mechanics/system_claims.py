@@ -144,7 +144,7 @@ def certified(system: System, methods: Sequence[str] = ()) -> Iterator[Certified
     Parameters
     ----------
     system : System
-    methods : sequence of str
+    methods : sequence of str, optional
         Names of METHODS.
 
     Yields

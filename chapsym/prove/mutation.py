@@ -14,7 +14,7 @@ def mutations(statement: Equation, most: int = 4) -> list[Equation]:
     ----------
     statement : Equation
         The equation; the terms are those of the sums and products of its right side, as written.
-    most : int
+    most : int, optional
         The largest number of variants.
 
     Returns

@@ -21,9 +21,9 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
         An equation in a quotient ring.
     *assumed : sympy relational
         Further relations that must hold at the point.
-    seed : int
+    seed : int, optional
         The seed of the random numbers: the same seed finds the same point.
-    tries : int
+    tries : int, optional
         The number of trial points.
 
     Returns
