@@ -1,4 +1,4 @@
-"""Makes the data set anew from its cases: python -m benchmarks.rolling.make [NAME ...], some minutes.
+"""Makes the data set anew from its cases: python -m benchmarks.rolling.make [NAME ...], about twenty minutes for all.
 
 cases/NAME.toml is the scene, of a ball with equations of its own a module; data/NAME.json has its frames as [middle,
 radius], and what is needed to set up an engine; data/NAME.csv the same in the units and names of engines;

@@ -1,4 +1,4 @@
-"""A ball rolled to an accuracy: a law chooses precision, order and steps, and the run estimates its error."""
+"""A ball rolled to an accuracy by long steps, in double precision or double-double, with an estimate of the error."""
 
 from .answer import Accurate, Attempt, Choice, Method, Request, accurate, distance, foreseen, methods, take
 from .motion import roll

@@ -1,4 +1,4 @@
-"""Runs in float64 and float32: one ball after the other, or in blocks on every core if the loops are compiled.
+"""Runs in float64 and float32: one ball after the other, or in blocks if compiled; long runs on every core.
 
 float32: state, sums and rotations have that type; each register holds twice as many balls.  As in float64, 𝒦, γ, the
 attitude and the contact point have compensated sums, and the integrals are restored.  Two things stay in float64: the
