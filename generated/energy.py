@@ -1,6 +1,6 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: stable-inverse.  Operations: 46.  SymPy 1.14.0.
+Proved by: stable-inverse.  Operations: 44.  SymPy 1.14.0.
 Expression: sha256 bf001ea627c2a020209b8f7cd96e7b036037dbd39581337739aa4e562cb3b0c8.
 Certificate of stable-inverse: sha256 5db020d5d32aa64d3f60ea9a20bbe1d8c232f9965594c3c29928f58603dd4c28.
 """

@@ -1,5 +1,6 @@
 """Generated code: deterministic, checked byte for byte and value for value, and the same on every number type."""
 
+import ast
 import json
 import os
 import re
@@ -26,6 +27,12 @@ x, y = sp.symbols("x y")
 def test_what_is_committed_is_what_is_derived():
     """By the certificates that are committed, which a test of them compares with what is proved now."""
     assert answer("codegen", "--check")["problems"] == []
+
+
+def test_the_operations_that_a_kernel_states_are_those_of_its_text():
+    for name, row in json.loads((build.folder() / "manifest.json").read_text("utf-8"))["kernels"].items():
+        (function,) = ast.parse((build.folder() / f"{name}.py").read_text("utf-8")).body[-1:]
+        assert row["operations"] == sum(isinstance(x, ast.BinOp | ast.UnaryOp | ast.Call) for x in ast.walk(function))
 
 
 def test_a_checkout_is_told_from_a_copy(copy):
