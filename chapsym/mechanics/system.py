@@ -24,7 +24,7 @@ STEP = sp.Symbol("step_length")
 #: The largest accepted error of the constraints at the start, in their own units.
 NEAR = 1e-9
 #: The largest exponent: a kernel multiplies.
-MOST_POWER = 100
+MOST_POWER = 300
 
 
 class BadSystem(ValueError):
