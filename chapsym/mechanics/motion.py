@@ -3,7 +3,6 @@
 import ctypes
 import itertools
 import logging
-import shutil
 import subprocess
 import tempfile
 import time
@@ -116,7 +115,7 @@ class Runner:
         except ValueError as error:
             raise BadSystem(str(error)) from None
         self.in_floats = isinstance(self.level, Double)
-        self.compiled = self.in_floats and (_has_compiler() if compiled is None else compiled)
+        self.compiled = self.in_floats and compiled is not False
 
     @property
     def integrals(self) -> dict[str, sp.Expr]:
@@ -426,7 +425,7 @@ class Runner:
                 subprocess.run([*map(str, command), "-lm", "-o", place / "march.so"], check=True, capture_output=True)
                 return ctypes.CDLL(str(place / "march.so"))
             except (OSError, subprocess.CalledProcessError) as error:
-                logging.getLogger("chapsym").warning("plain Python takes the steps, as cc failed: %s", error)
+                _say_once(str(error) if isinstance(error, OSError) else f"cc ended with status {error.returncode}")
                 return None
 
 
@@ -442,14 +441,10 @@ def _in_floats(symbols: tuple[sp.Symbol, ...], expressions: tuple[sp.Expr, ...])
 
 
 @cache
-def _has_compiler() -> bool:
-    """Whether there is a C compiler; warns once if there is none."""
-    if shutil.which("cc") is not None:
-        return True
+def _say_once(why: str) -> None:
     logging.getLogger("chapsym").warning(
-        "plain Python takes the steps, some hundred times slower: install a C compiler"
+        "plain Python takes the steps, slower than C: cc is missing or failed: %s", why
     )
-    return False
 
 
 def moved(

@@ -311,24 +311,18 @@ def test_the_time_of_a_place_is_when_it_is_there(method):
     assert np.abs(motion.place[:, 1] - 0.3 - motion.time / 2).max() < 1e-12
 
 
-def test_without_a_compiler_python_takes_the_steps_and_says_so(monkeypatch, caplog):
-    motion._has_compiler.cache_clear()
-    monkeypatch.setattr("shutil.which", lambda name: None)
-    assert np.abs(moved(particle(), steps=5).final[1] - 0.3 - 0.25) < 1e-12
-    assert "plain Python takes the steps" in caplog.text
-    motion._has_compiler.cache_clear()
-    monkeypatch.setattr("shutil.which", lambda name: "cc")
+@pytest.mark.parametrize("fails", [False, True])
+def test_where_no_compiler_is_or_it_fails_python_takes_the_steps_and_says_so(monkeypatch, caplog, tmp_path, fails):
+    if fails:
+        (tmp_path / "cc").write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
+        (tmp_path / "cc").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":" if fails else None)
+    motion._say_once.cache_clear()
+    for _ in range(2):
+        assert np.abs(Runner(particle(), "dla").march(5).final[1] - 0.3 - 0.25) < 1e-12
+    assert caplog.text.count("plain Python takes the steps") == 1
+    assert ("ended with status 3" if fails else "'cc'") in caplog.text
     assert [Runner(particle(), compiled=given).compiled for given in (None, True, False)] == [True, True, False]
-    motion._has_compiler.cache_clear()
-
-
-def test_where_the_compiler_fails_python_takes_the_steps_and_says_so(monkeypatch, caplog, tmp_path):
-    (tmp_path / "cc").write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
-    (tmp_path / "cc").chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
-    found = Runner(particle(), "dla", compiled=True).march(5)
-    assert np.abs(found.final[1] - 0.3 - 0.25) < 1e-12
-    assert "as cc failed" in caplog.text
 
 
 def test_a_system_of_one_coordinate_without_parameters_runs_in_c():
