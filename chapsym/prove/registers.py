@@ -107,7 +107,7 @@ class Register:
             if sources.file(name) is None:
                 missing = name.removeprefix(f"{head.__name__}.")
                 raise BrokenScript(
-                    f"{self.place} has no script {missing!r}; SCRIPTS names files without .py, which have no other dot"
+                    f"{self.place} has no script file {missing!r}; SCRIPTS, where it is given, names them without .py"
                 )
             _import(name)
         files = {sources.file(one) for name in self._scripts(head) for one in sources.closure(name, own=True)}

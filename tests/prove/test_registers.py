@@ -149,7 +149,7 @@ WRONG = {
     "a use in a circle": ("cubes", "5.2", "c-1", "claims: c-1 uses itself, directly or through others"),
     "a use of nothing": ("cubes", "5.2", "5.2000", r"cubes\.py: c-1 uses '5\.2000', which no proof judges"),
     "no proof": ("__init__", "", "CLAIMS = ('s-1', 's-2', 'c-1', 'c-2')", r"claims: the proofs and .* differ: c-2"),
-    "no script": ("__init__", "", "SCRIPTS = ('cube',)", "claims has no script 'cube'; SCRIPTS names files without"),
+    "no script": ("__init__", "", "SCRIPTS = ('cube',)", "claims has no script file 'cube'; SCRIPTS, where it is"),
     "scripts that are no list": ("__init__", "", "SCRIPTS = 5", r"claims/__init__\.py: SCRIPTS must be a list of"),
     "claims that are no list": ("__init__", "", "CLAIMS = 's-1'", r"CLAIMS must be a list of texts"),
     "lemmas that are no texts": ("__init__", "", "LEMMAS = (3,)", r"LEMMAS must be a list of texts"),
