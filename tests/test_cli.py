@@ -97,6 +97,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["codegen", "--check", "--trust", "all"], "does not go with --check"),
         (["codegen", "--trust", "nonsense"], "there is no such kernel"),
         ([*STEP, "--gamma", "0,0,1e5000"], "off 1 by more than 1e300"),
+        ([*STEP, "--gamma", f"0,0,1.{'0' * 49}075", "--digits", "50"], "gamma must be a unit vector to 50 digits"),
         ([*STEP, "--momentum", "1e-400,0,0"], "below the range of float64; ask for more with --digits"),
         (["run", FIRST, "-o", "x" * 300 + ".csv"], "cannot be written: File name too long"),
         (["check", "--states", "0"], "--states"),

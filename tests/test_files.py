@@ -76,6 +76,7 @@ def test_a_name_is_pasted_into_a_shell_as_it_is(tmp_path, monkeypatch, name):
     path.write_text("here")
     assert pasted(path).isprintable()
     assert subprocess.check_output(["bash", "-c", f"cat {pasted(path)}"], text=True) == "here"
+    assert subprocess.check_output(["bash", "-c", f"printf %s {pasted(name)}"], text=True) == name  # a word is no file
 
 
 def test_a_link_stays_a_link(tmp_path):

@@ -1,5 +1,7 @@
 """The motion between the frames of a run: its order, its frames, and what it refuses."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -69,6 +71,14 @@ def test_a_ball_of_a_batch_that_stopped_is_nan_behind_its_last_frame_and_the_oth
     for array in (found.momentum, found.gamma, found.omega, found.attitude, found.contact):
         assert np.isfinite(array[0]).all()
         assert (np.isfinite(array[1]).all(axis=-1) == [True, True, False, False]).all()
+
+
+def test_without_the_attitude_the_points_of_contact_of_a_batch_are_nearly_those_with_it():
+    """The momentum fixes the directions in the plane up to one angle, and the run that angle: 2.4e-9 m were seen."""
+    ball = chapsym.Ball.from_inertia([(0.006, 0.007, 0.009)] * 2, mass=[2.0] * 2, radius=[0.1] * 2, batch=True)
+    run = chapsym.roll(ball, [(3, -2, 1), (1, 2, 3)], 0.1, 10, contact=True)
+    found = replace(run, attitude=None).at([0.05, 0.33])
+    assert np.abs(found.contact - run.at([0.05, 0.33]).contact).max() < 1e-8
 
 
 @pytest.mark.parametrize("times", [-0.1, [0.0, 2.1], np.nan, "soon", [[0.0]]])

@@ -140,3 +140,7 @@ def test_a_process_that_is_killed_ends_the_run_in_a_sentence():
 
     with pytest.raises(BadInput, match="a process of this run was ended"), jobs.processes(2) as crew:
         jobs.run([one()], crew)
+
+
+def test_a_time_is_read_in_the_largest_unit_of_which_there_is_one():
+    assert [jobs.duration(x) for x in (3600, 60, 59.9, 1, 0.5, 0)] == ["1 h", "1 min", "60 s", "1 s", "500 ms", "0 µs"]
