@@ -311,6 +311,14 @@ def test_the_time_of_a_place_is_when_it_is_there(method):
     assert np.abs(motion.place[:, 1] - 0.3 - motion.time / 2).max() < 1e-12
 
 
+def test_a_run_in_parts_is_the_run(monkeypatch):
+    whole = Runner(particle()).march(20, every=5)
+    monkeypatch.setattr(motion, "PART", 7)
+    parts = Runner(particle()).march(20, every=5)
+    assert parts.time.tolist() == whole.time.tolist()
+    assert (parts.place == whole.place).all()
+
+
 @pytest.mark.parametrize("fails", [False, True])
 def test_where_no_compiler_is_or_it_fails_python_takes_the_steps_and_says_so(monkeypatch, caplog, tmp_path, fails):
     if fails:
