@@ -83,10 +83,10 @@ def count(value: object, least: int, most: int, where: str) -> int:
     return value
 
 
-def exact(text: object, where: str) -> Fraction:
+def exact(text: Any, where: str) -> Fraction:
     """A rational number such as 12/5, -3, 0.25 or 1e-90."""
     fits = isinstance(text, str) and len(text) <= MOST_DIGITS + 10 and _EXACT.fullmatch(text)
-    if not isinstance(text, str) or not fits or (text[0] == "-" and not re.split("[e/]", text)[0].strip("-0.")):
+    if not fits or (text[0] == "-" and not re.split("[e/]", text)[0].strip("-0.")):
         raise Rejected(f"{where} must be a number in quotes such as 12/5, -3, 0.25 or 1e-90")
     try:
         return Fraction(text)

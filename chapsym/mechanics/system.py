@@ -23,8 +23,8 @@ from chapsym.prove.registers import raised
 STEP = sp.Symbol("step_length")
 #: The largest accepted error of the constraints at the start, in their own units.
 NEAR = 1e-9
-#: The largest exponent: a kernel multiplies.
-MOST_POWER = 300
+#: The most factors of a product, with powers as products: they nest in the text of a kernel.
+MOST_FACTORS = 500
 
 
 class BadSystem(ValueError):
@@ -506,10 +506,11 @@ def several(value: object, what: str) -> tuple[Any, ...]:
 def _smooth(expr: sp.Expr, what: str) -> None:
     """Raises BadSystem for functions that kernels do not have."""
     known = sp.Add, sp.Mul, sp.Pow, sp.Number, sp.NumberSymbol, sp.Symbol, sp.sin, sp.cos, sp.tan
-    large = [x for x in expr.atoms(sp.Pow) if x.exp.is_Integer and abs(x.exp) > MOST_POWER]
-    if strange := [*(e for e in sp.preorder_traversal(expr) if not isinstance(e, known)), *large]:
-        upto = f"which is not sin, cos, a square root or a whole power up to {MOST_POWER}"
-        raise BadSystem(f"{what} has {strange[0]}, {upto}")
+    powers = lambda e: (x.exp for x in sp.Mul.make_args(e) if x.is_Pow and x.exp.is_Integer)  # noqa: E731
+    long = [e for e in expr.atoms(sp.Mul, sp.Pow) if sum(map(abs, powers(e))) > MOST_FACTORS]
+    if strange := [*(e for e in sp.preorder_traversal(expr) if not isinstance(e, known)), *long]:
+        clause = f"is not sin, cos, a square root or a whole power, or has more than {MOST_FACTORS} factors"
+        raise BadSystem(f"{what} has {strange[0]}, which {clause}")
 
 
 def expression(value: object, what: str) -> sp.Expr:
