@@ -14,6 +14,7 @@ from chapsym.dynamics.flow.start import Principal, Start, balls
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.levels.start import fraction
 from chapsym.numbers.precisions import flint_bits
+from chapsym.workers import Processes
 
 from .balls import decade, shortest
 from .document import Document, stated
@@ -41,21 +42,33 @@ def motion(
     """The certificate of the frames from a start, accepted by the checker.
 
     The checker tries increasing bits, as it loses some bits per turn, more for a ball with unequal moments.  Raises
-    BadInput if it accepts none with MOST bits beyond those of the digits, or begun in `limit` s, and as `check_start`.
+    BadInput if it accepts none with MOST bits beyond those of the digits, or in `limit` s, and as `check_start`.
     """
     check_start(start, len(found.times))
     digits, until = math.ceil(found.digits * math.log2(10)), time.monotonic() + limit
     bits, why = digits + GUARD, ""
-    while bits <= digits + MOST and (not why or time.monotonic() < until):
+    while bits <= digits + MOST:
         progress(f"the checker tries {bits} bits")
         data = document(start, found, bits)
         try:
-            checker.check(data)
+            _check(data, until - time.monotonic())
         except checker.Rejected as error:
             bits, why = math.ceil(MORE * bits), str(error)
+        except TimeoutError:
+            why = f"with {bits} bits it had not ended at the limit"
+            break
         else:
             return data
     raise BadInput(f"the checker proves too few digits of this motion, ask for less time or fewer digits: {why}")
+
+
+def _check(data: Document, seconds: float) -> None:
+    """Judges a certificate, in a process that ends with the time if this is limited: raises TimeoutError then."""
+    if seconds == math.inf:
+        checker.check(data)
+        return
+    with Processes(1) as pool:
+        pool.submit(checker.check, data).result(max(seconds, 0.0))
 
 
 def document(start: Start, found: CertifiedMotion, bits: int) -> Document:

@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+import time
 from collections.abc import Callable, Mapping
 from decimal import ROUND_CEILING, Context
 from fractions import Fraction
@@ -254,6 +255,7 @@ def motion(
     if result is not None:
         check_scene(result, str(given.toml))
     with telling() as progress:
+        began = time.monotonic()
         found = follow(start, times, digits, limit=limit, progress=progress)
     written = found.write()
     errors = {}
@@ -264,7 +266,7 @@ def motion(
         write(output, case_of(scene.stem, given.title, start) | written)
     if certificate is not None and found.stopped is None:
         with telling(every=0.0) as progress:
-            write(certificate, certified(start, found, progress, limit))
+            write(certificate, certified(start, found, progress, limit - (time.monotonic() - began)))
     if as_json:
         print_json(written)
     elif found.times:

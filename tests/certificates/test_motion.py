@@ -148,9 +148,9 @@ def test_more_frames_than_a_certificate_has_are_refused_before_the_motion_is_fol
 
 def test_what_is_proved_is_written_where_the_checker_reaches_the_limit(tmp_path, monkeypatch, capsys):
     output = tmp_path / "motion.json"
-    monkeypatch.setattr(checker.rolling, "MOST_STEPS", 1)
-    monkeypatch.setattr(motion, "time", SimpleNamespace(monotonic=iter((0, 1e9)).__next__))
-    with pytest.raises(BadInput, match="ask for less time or fewer digits"):
+    # The motion has all of the limit, and the checker what is left: no time, so that its process is ended at once.
+    monkeypatch.setattr(certify, "time", SimpleNamespace(monotonic=iter((0, 1e9)).__next__))
+    with pytest.raises(BadInput, match="fewer digits: with 82 bits it had not ended at the limit"):
         certify.motion(scene(tmp_path), 10, certificate=tmp_path / "certificate.json", output=output)
     assert capsys.readouterr().err.count("the checker tries") == 1
     assert len(read(output)["frames"]) == 3
