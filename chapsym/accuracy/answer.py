@@ -400,7 +400,7 @@ def accurate(
     attitude : bool or array_like, optional
         True or a unit quaternion, (4,), to be followed; its angle counts, too.
     limit : float, optional
-        The longest expected computing time, in seconds; by default 600.
+        Seconds after which it is given up, or before it begins if it is expected to take longer; by default 600.
     progress : callable, optional
         Called with a sentence on the method before each attempt, and on its progress.
 
@@ -412,7 +412,7 @@ def accurate(
     Raises
     ------
     BadInput
-        For a request that cannot be met: if it would take longer than the limit, or is finer than every precision.
+        For a request that cannot be met: if it takes longer than the limit, or is finer than every precision.
 
     References
     ----------
@@ -435,12 +435,19 @@ def accurate(
 
 def answered(request: Request, limit: float, progress: Callable[[str], None]) -> Accurate:
     """`accurate` of a request."""
-    started = clock.thread_time()
+    started, until = clock.thread_time(), clock.monotonic() + time_limit(limit)
     problem, choice = _foreseen(request, limit)
-    progress(choice.sentence())
+
+    def say(text: str) -> None:
+        """Passes on a sentence, until the limit."""
+        if clock.monotonic() > until:
+            raise BadInput(f"stopped at the limit of {limit:g} s: {text}; ask for less accuracy or time, or raise it")
+        progress(text)
+
+    say(choice.sentence())
     attempts: list[Attempt] = []
     if problem is not None:
-        found = motion.moved(problem, lambda part: progress(f"{choice.sentence()}: {part:.0%}"))
+        found = motion.moved(problem, lambda part: say(f"{choice.sentence()}: {part:.0%}"))
         if found.status[0] == Status.TAKEN:
             steps = max(int(found.total[0]), 1)
             made = Choice(Method(NAMED["double"], int(found.order[0])), steps, request.time / steps, choice.seconds)
@@ -448,8 +455,8 @@ def answered(request: Request, limit: float, progress: Callable[[str], None]) ->
             if found.error[0] <= request.accuracy:
                 run = _as_trajectory(request, found)
                 return Accurate(run, request, attempts, clock.thread_time() - started)
-        progress(_doubled(request, limit).sentence())
-    run = _by_double_double(request, limit, attempts, progress)
+        say(_doubled(request, limit).sentence())
+    run = _by_double_double(request, limit, attempts, say)
     return Accurate(run, request, attempts, clock.thread_time() - started)
 
 

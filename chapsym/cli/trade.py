@@ -40,7 +40,7 @@ def trade(
     accuracy: Annotated[float | None, takes("A", "Choose, run and verify: the error wanted.")] = None,
     time: Annotated[float | None, takes("T", "Seconds to roll, with --accuracy.")] = None,
     of: Annotated[str | None, takes("WHAT", "contact (metres; the default with a radius) or state (relative).")] = None,
-    limit: Annotated[float, takes("S", "Seconds of the processor that a run may take.")] = 600.0,
+    limit: Annotated[float, takes("S", "Seconds that a run may take.")] = 600.0,
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
     fresh: Annotated[bool, typer.Option("--fresh", "--force", help="Replace any result that is there.")] = False,
     output: Annotated[Path | None, writes("FILE", "A figure or a page (.md); with --accuracy the run.")] = None,

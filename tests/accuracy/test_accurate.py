@@ -3,6 +3,8 @@
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from itertools import chain, count
+from types import SimpleNamespace
 
 import mpmath
 import numpy as np
@@ -135,6 +137,14 @@ def test_a_free_top_is_followed_and_a_ball_at_rest_stays_to_any_accuracy():
     found = accurate(BALL, (0, 0, 0), GAMMA, 5.0, 1e-20)
     assert found.estimate <= 1e-20
     np.testing.assert_allclose(found.trajectory.gamma[-1], GAMMA, rtol=0, atol=2.0**-53)
+
+
+def test_a_run_ends_at_its_limit(monkeypatch):
+    """A limit holds for what takes longer than expected, too, here by a clock that is at it at once."""
+    ticks = chain((0,), count(5))
+    monkeypatch.setattr(answer, "clock", SimpleNamespace(thread_time=lambda: 0.0, monotonic=ticks.__next__))
+    with pytest.raises(BadInput, match=r"stopped at the limit of 6 s: double-double, extrapolated to order .*%; ask"):
+        asked(1e-20, limit=6)
 
 
 def test_every_frame_is_promised():
