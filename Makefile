@@ -55,6 +55,7 @@ pictures: $(VENV)/.installed
 	for one in bowling:contact robot:spheres,attitude vertical:spheres,phase spread:contact,spread four:spheres; do \
 	  $(BIN)/chapsym show docs/scenes/$${one%%:*}.toml -o docs/pictures/$${one%%:*} --figures $${one##*:} --no-page; done
 	$(BIN)/chapsym show docs/first.toml -o docs/pictures/first --format gif --no-page
+	$(BIN)/python docs/pictures/layers.py
 	$(BIN)/python docs/pictures/page.py
 	$(BIN)/python docs/pictures/radii.py
 	$(BIN)/chapsym judge benchmarks/rolling/examples/*.csv --against benchmarks/rolling/data/robot.json -o docs/pictures/engines/robot.svg

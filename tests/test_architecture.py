@@ -1,8 +1,11 @@
 """The house: which room imports which, and what importing chapsym costs."""
 
 import ast
+import re
+import runpy
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -27,7 +30,7 @@ ROOMS = {
     "codegen": {"checker", "derive", "files", "prove"},
     "mechanics": {"codegen", "derive", "dynamics", "numbers", "prove", "rationals"},
     "dynamics": {"extras", "generated", "numbers", "rationals"},
-    "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},
+    "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers", "workers"},
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "jobs": {"dynamics", "extras", "workers"},
     "scene": {"accuracy", "dynamics", "rationals", "extras", "files", "generated", "jobs", "numbers"},
@@ -66,15 +69,38 @@ def test_lower_rooms_never_import_higher_ones_and_what_runs_the_map_does_not_imp
         assert room in SYMPY_ROOMS or parts[0] != "sympy", f"{path.name} imports {name}"
 
 
-def floor(room):
-    """One above the highest room that it may import."""
-    return 1 + max((floor(other) for other in ROOMS[room]), default=0)
+PAGE = (ROOT.parent / "docs/explanation/architecture.md").read_text(encoding="utf-8")
 
 
-def test_the_page_of_the_architecture_draws_the_floors_as_they_are():
-    floors = {height: sorted(room for room in ROOMS if floor(room) == height) for height in map(floor, ROOMS)}
-    drawn = "".join(f"    {height}  {', '.join(floors[height])}\n" for height in sorted(floors, reverse=True))
-    assert f"\n\n{drawn}\n" in (ROOT.parent / "docs/explanation/architecture.md").read_text(encoding="utf-8")
+def test_the_picture_of_the_layers_is_of_the_imports_as_they_are():
+    drawing = runpy.run_path(ROOT.parent / "docs/pictures/layers.py")
+    assert drawing["drawn"]() == drawing["PICTURE"].read_text(encoding="utf-8")
+
+
+def names_in(file, function):
+    """The names in the code of the functions or methods of this name."""
+    nodes = ast.walk(ast.parse((ROOT.parent / file).read_text(encoding="utf-8")))
+    bodies = [node for node in nodes if isinstance(node, ast.FunctionDef) and node.name == function]
+    assert bodies, f"{file} has no function {function}"
+    inside = [node for body in bodies for node in ast.walk(body) if isinstance(node, ast.Name | ast.Attribute)]
+    return {node.id if isinstance(node, ast.Name) else node.attr for node in inside}
+
+
+def test_each_function_of_a_walk_names_the_next():
+    walks = re.search(r"```text\n(.*?)```", PAGE, re.DOTALL)[1].strip().split("\n\n")
+    assert len(walks) == 5
+    for walk in walks:
+        steps = [
+            (line.split()[0], name) for line in walk.split("\n")[1:] for name in line.split(maxsplit=1)[1].split(", ")
+        ]
+        for (file, function), (_, following) in pairwise(steps):
+            assert following in names_in(file, function), f"{walk}: {file} {function}"
+        names_in(*steps[-1])
+
+
+def test_what_the_page_of_the_architecture_opens_is_there():
+    for path in re.findall(r"`([\w/]+(?:/|\.py))`", PAGE.partition("## To change")[2]):
+        assert (ROOT.parent / path).exists(), path
 
 
 def test_every_room_is_listed():
