@@ -35,6 +35,7 @@ Output = Annotated[Path | None, writes("FILE", "Write the certificate there.")]
 
 Digits = Annotated[int | None, takes("N", "Decimals; as many as needed by default.")]
 Radius = Annotated[str | None, takes("R", "How far parameters may be off; the largest power of 10.")]
+Limit = Annotated[float, takes("S", "Seconds after which the search stops.")]
 
 
 def _ball(given: Mapping[str, str | None], D: str, J: str = "1,2,4") -> tuple[Any, Fraction]:
@@ -62,6 +63,7 @@ def no_invariant_measure(
     level: Annotated[str | None, takes("L", "The level; found by default.")] = None,
     digits: Digits = None,
     radius: Radius = None,
+    limit: Limit = 600.0,
     output: Output = None,
     as_json: Json = False,
     **body: str | None,
@@ -81,7 +83,7 @@ def no_invariant_measure(
     from chapsym.certificates.reduced import Top
 
     options = {"steps": steps, "half_turns": turns, "level": at, "digits": digits, "radius": within}
-    _deliver(output, as_json, search, Top(J, D, h), **options)
+    _deliver(output, as_json, limit, search, Top(J, D, h), **options)
 
 
 @certify.command("heteroclinic")
@@ -91,6 +93,7 @@ def heteroclinic(
     starts: Annotated[str | None, takes("X1,X2", "Two starts x = e^2u; 1 and about the middle of a step.")] = None,
     digits: Digits = None,
     radius: Radius = None,
+    limit: Limit = 600.0,
     output: Output = None,
     as_json: Json = False,
     **body: str | None,
@@ -109,7 +112,7 @@ def heteroclinic(
     from chapsym.certificates.heteroclinic import heteroclinic as search
     from chapsym.certificates.reduced import Top
 
-    _deliver(output, as_json, search, Top(J, D, h), starts=two, digits=digits, radius=within)
+    _deliver(output, as_json, limit, search, Top(J, D, h), starts=two, digits=digits, radius=within)
 
 
 @certify.command("periodic-orbit")
@@ -123,6 +126,7 @@ def periodic_orbit(
     attracting: Annotated[bool, typer.Option("--attracting", help="It must attract the orbits near it.")] = False,
     digits: Digits = None,
     radius: Radius = None,
+    limit: Limit = 600.0,
     output: Output = None,
     as_json: Json = False,
     **body: str | None,
@@ -140,7 +144,7 @@ def periodic_orbit(
     within = _optional(radius, "--radius")
     from chapsym.certificates.orbit import periodic_orbit as search
 
-    _deliver(output, as_json, search, J, D, KK, steps, Kg, digits, attracting, within)
+    _deliver(output, as_json, limit, search, J, D, KK, steps, Kg, digits, attracting, within)
 
 
 @certify.command("energy-drift")
@@ -152,6 +156,7 @@ def energy_drift(
     time: Annotated[str, takes("T", "When it is back.")] = "8.5478",
     vary: Annotated[int, takes("N", "The component of the momentum that is adjusted.", min=1, max=3)] = 3,
     digits: Annotated[int, takes("N", "Its decimals.", min=12, max=200)] = 20,
+    limit: Limit = 600.0,
     output: Output = None,
     as_json: Json = False,
     **body: str | None,
@@ -167,7 +172,7 @@ def energy_drift(
     signs, end = rationals(symmetry, "--symmetry", 3), rational(time, "--time")
     from chapsym.certificates.drift import energy_drift as search
 
-    _deliver(output, as_json, search, J, D, K, g, signs, end, vary - 1, digits=digits)
+    _deliver(output, as_json, limit, search, J, D, K, g, signs, end, vary - 1, digits=digits)
 
 
 @certify.command()
@@ -290,6 +295,7 @@ def motion(
 @certify.command("run")
 def run_of_map(
     scene: Annotated[Path, argument("SCENE.toml", "One ball of the map, in double precision.")],
+    limit: Limit = 600.0,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -316,7 +322,7 @@ def run_of_map(
     run = trajectory(
         ball, *start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True
     )
-    _deliver(output, as_json, search, run)
+    _deliver(output, as_json, limit, search, run)
 
 
 def within(error: float | None, unit: str) -> str:
@@ -327,15 +333,26 @@ def within(error: float | None, unit: str) -> str:
     return f"is within {float(shown):.2g}{unit} at these frames: proved"
 
 
-def _deliver(output: Path | None, as_json: bool, search: Callable[..., Data], *given: Any, **options: Any) -> None:
+def _deliver(
+    output: Path | None, as_json: bool, limit: float, search: Callable[..., Data], *given: Any, **options: Any
+) -> None:
     """Finds a certificate with its progress on standard error, writes it, and prints what the checker says of it."""
     from chapsym import checker, files
     from chapsym.certificates.document import write
+    from chapsym.dynamics.map import time_limit
 
     if output is not None:
         files.check_destination(output)
+    until = time.monotonic() + time_limit(limit)
     with telling() as progress:
-        found = search(*given, **options, progress=progress)
+
+        def going(what: str) -> None:
+            """Passes on a sentence, until the limit."""
+            if time.monotonic() > until:
+                fail(f"stopped at the limit of {limit:g} s: {what}; give more by --limit", 1)
+            progress(what)
+
+        found = search(*given, **options, progress=going)
     if output is not None:
         write(output, found)
     if as_json:

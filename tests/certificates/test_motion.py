@@ -1,6 +1,7 @@
 """Certificates of motions: the files that are shipped, the start that is written, and the command that makes one."""
 
 import json
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -154,3 +155,10 @@ def test_what_is_proved_is_written_where_the_checker_reaches_the_limit(tmp_path,
         certify.motion(scene(tmp_path), 10, certificate=tmp_path / "certificate.json", output=output)
     assert capsys.readouterr().err.count("the checker tries") == 1
     assert len(read(output)["frames"]) == 3
+
+
+@pytest.mark.parametrize("search", ["no-invariant-measure", "heteroclinic", "periodic-orbit", "energy-drift"])
+def test_a_search_ends_at_its_limit_with_what_was_reached(search):
+    done = command("certify", search, "--limit", "1e-9")
+    assert done.returncode == 1
+    assert re.fullmatch(r"chapsym: stopped at the limit of 1e-09 s: .+; give more by --limit\n", done.stderr)
