@@ -173,7 +173,7 @@ def test_bad_input_is_told(call, sentence):
     [(0.0, 1, 2.0), (3.0, -1, 2.0), *slow((0.0, 1, 0.5), (3.0, 1, 2.0), (3.0, 1, 0.5), (3.0, -1, 0.5))],
 )
 def test_the_exact_top_has_no_error_of_the_step(D, side, epsilon):
-    """Up to t = 40: 𝒦 and γ within n^(3/2) ulps of the continuous ball; the map itself is off by 1e-2."""
+    """Up to t = 40: 𝒦 and γ within n^(3/2) ulps of the continuous ball; the map itself is off by 5e-3 and more."""
     ball, steps = Ball((1, 2, 4), D), round(40 / epsilon)
     K = side * GAMMA if D else np.array([1.0, -0.5, 0.75])
     top = exact_top(ball, epsilon * K, GAMMA)
@@ -187,7 +187,7 @@ def test_the_exact_top_has_no_error_of_the_step(D, side, epsilon):
     fixed = kernels.rotate(exact.attitude, exact.momentum)
     assert np.abs(fixed - fixed[0]).max() <= epsilon * budget
     plain = trajectory(ball, epsilon * K, GAMMA, steps)
-    assert np.abs(plain.momentum[1:] / epsilon - true[:, :3]).max() > 1e-2
+    assert np.abs(plain.momentum[1:] / epsilon - true[:, :3]).max() > 5e-3
     assert abs(top.twist) > 1e-4
 
 
