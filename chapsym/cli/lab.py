@@ -52,7 +52,7 @@ def lab(
     """
     from chapsym.files import CannotWrite, alone, check_destination, made, write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded
-    from chapsym.mechanics.cases import name_of
+    from chapsym.mechanics.claims import name_of
     from chapsym.show.lab import COLUMNS
 
     if output is not None and output.suffix not in (".json", ".html"):

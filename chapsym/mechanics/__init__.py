@@ -10,7 +10,7 @@
 
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
-from .cases import Certified
+from .claims import Certified, certified
 from .density import Volume, volume
 from .equations import Agreement, Conservation, agree, conserved, in_symbols, of_kane
 from .judged import Verdict, verdicts
@@ -18,7 +18,6 @@ from .lab import Cell, measured
 from .methods import METHODS, Method, Scheme
 from .motion import Motion, NotSolved, Runner, moved
 from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
-from .system_claims import certified
 
 __all__ = [
     "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Certified", "Conservation", "Discrete", "Flag", "Method",

@@ -13,7 +13,7 @@ from systems import ANYWHERE, FREE, a, example, k, runner, va, vx, vy, vz, x, y,
 
 from chapsym import Digits, Enclosure
 from chapsym.mechanics import BadSystem, NotSolved, Runner, System, moved
-from chapsym.mechanics.steps import Sets
+from chapsym.mechanics.motion import Sets
 
 #: Of 1 + |x|, as large as the last bit of float64 counts: what 40 steps in float64 were measured to be off, doubled.
 ULPS = 13
