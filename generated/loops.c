@@ -85,12 +85,15 @@ INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_r
 
 typedef struct { r1 first, allowed, most, start; } Asked;
 typedef struct { r2 tensor; r1 contact, radius; } Balls;
+typedef struct { r2 kept; r1 doubt; i1 taken, status; d1 reach; } Ends;
 typedef struct { r3 momenta, verticals, attitudes, traces; int follows, traced; } Frames;
+typedef struct { r2 reported; i1 reached, status; d1 reach; } Reached;
 typedef struct { real w, m, rest, shift, curved; } Root;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { real a0, a1, a2; } t_r3;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8; } t_r9;
 typedef struct { t_r4 p; t_r3 w; real first; t_r3 d; t_r9 cofactors; } Round;
+typedef struct { real h; int64_t first, steps, every; } Run;
 typedef struct { r2 sums; r3 following; r2 beginning; } Weights;
 typedef struct { real a0, a1; } t_r2;
 typedef struct { t_r2 a0, a1, a2, a3; } t_p4;
@@ -1741,18 +1744,17 @@ INLINE void lanes_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, Fra
     if (frames.traced) { AT3(frames.traces, i, frame, 0) = body.p[10]; AT3(frames.traces, i, frame, 1) = body.p[11]; }
 }
 
-INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int64_t first, int64_t steps, int64_t
-    every, Weights weights, r2 kept, r1 doubt, i1 taken, i1 status, d1 reach) {
+INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, Weights weights, Ends ends) {
     int64_t i; t_ir stopped; ALIGNED real S_[140 * (4 * B)]; memset(S_, 0, sizeof S_);
-    r2 S = {S_, 140, (4 * B), (4 * B)}; int64_t count = status.n0; ALIGNED real states_[B * 27];
-    memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B];
-    memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B}; ALIGNED real body_[24];
-    memset(body_, 0, sizeof body_); r1 body = {body_, 24};
+    r2 S = {S_, 140, (4 * B), (4 * B)}; int64_t count = ends.status.n0; r2 kept = ends.kept;
+    ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27};
+    ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
+    ALIGNED real body_[24]; memset(body_, 0, sizeof body_); r1 body = {body_, 24};
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
         i = min_i(b, count - 1); lanes_placed(body, i, frames);
-        exponents.p[b] = lanes_enter(S, B, b, i, balls, h, weights, body, r2_row(states, b));
+        exponents.p[b] = lanes_enter(S, B, b, i, balls, run.h, weights, body, r2_row(states, b));
     }
-    if (first > 0) {
+    if (run.first > 0) {
         for (int64_t row = 0; row < 140; row++) {
             for (int64_t lane = 0, end_lane = 4 * B; lane < end_lane; lane++) {
                 AT2(S, row, lane) = AT2(kept, row, lane);
@@ -1762,7 +1764,7 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int
             for (int64_t row = 0; row < 27; row++) { AT2(states, b, row) = AT2(kept, 140 + row, b); }
         }
     }
-    for (int64_t step = first, end_step = steps; step < end_step; step++) {
+    for (int64_t step = run.first, end_step = run.steps; step < end_step; step++) {
         if (lanes_side_by_side(S, B, frames.traced, weights)) {
             for (int64_t b = 0, end_b = B; b < end_b; b++) {
                 if (AT2(S, 58, b) != R(0.0) && AT2(S, 135, b) == R(0.0)) {
@@ -1770,17 +1772,18 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int
                     if (stopped.a0 != 0) {
                         AT2(S, 135, b) = R(1.0);
                         if (b < count) {
-                            status.p[b] = stopped.a0; reach.p[b] = stopped.a1; taken.p[b] = step;
-                            lanes_stopped_at(b, div_i(step, every) + 1, frames);
+                            ends.status.p[b] = stopped.a0; ends.reach.p[b] = stopped.a1; ends.taken.p[b] = step;
+                            lanes_stopped_at(b, div_i(step, run.every) + 1, frames);
                         }
                     }
                 }
             }
         }
-        if (mod_i(step + 1, every) == 0) {
+        if (mod_i(step + 1, run.every) == 0) {
             for (int64_t b = 0, end_b = count; b < end_b; b++) {
-                if (status.p[b] == 0) {
-                    lanes_taken_out(S, b, body); lanes_shown(body, exponents.p[b], b, div_i(step + 1, every), frames);
+                if (ends.status.p[b] == 0) {
+                    lanes_taken_out(S, b, body);
+                    lanes_shown(body, exponents.p[b], b, div_i(step + 1, run.every), frames);
                 }
             }
         }
@@ -1794,25 +1797,17 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int
         for (int64_t row = 0; row < 27; row++) { AT2(kept, 140 + row, b) = AT2(states, b, row); }
     }
     for (int64_t b = 0, end_b = count; b < end_b; b++) {
-        doubt.p[b] = status.p[b] == 0 ? AT2(S, 117, b) : R(NAN);
-        if (status.p[b] == 0) { taken.p[b] = steps; reach.p[b] = R(1.0); }
+        ends.doubt.p[b] = ends.status.p[b] == 0 ? AT2(S, 117, b) : R(NAN);
+        if (ends.status.p[b] == 0) { ends.taken.p[b] = run.steps; ends.reach.p[b] = R(1.0); }
     }
 }
 
-INLINE void lanes_march(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h, int64_t
-    first, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r2 kept, r1
-    doubt, i1 taken, i1 status, d1 reach) {
-    Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
-    Balls balls = (Balls){J0, D0, radius}; Weights weights = (Weights){sums, following, beginning};
-    lanes_march_lanes(8, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach);
+INLINE void lanes_march(Frames frames, Balls balls, Run run, Weights weights, Ends ends) {
+    lanes_march_lanes(8, frames, balls, run, weights, ends);
 }
 
-INLINE void lanes_march_alone(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
-    int64_t first, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r2
-    kept, r1 doubt, i1 taken, i1 status, d1 reach) {
-    Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
-    Balls balls = (Balls){J0, D0, radius}; Weights weights = (Weights){sums, following, beginning};
-    lanes_march_lanes(1, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach);
+INLINE void lanes_march_alone(Frames frames, Balls balls, Run run, Weights weights, Ends ends) {
+    lanes_march_lanes(1, frames, balls, run, weights, ends);
 }
 
 INLINE void loop_n_guess(r3 past, r1 use, r2 E) {
@@ -3884,8 +3879,8 @@ INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, 
     lane.p[8] = max_r(lane.p[8], cautious * AT2(E, 84, b) + spun + off * max_r(speed, following_spinning(E, B, b)));
 }
 
-INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real interval, Asked asked, int patient,
-    Weights weights, r2 reported, i1 reached, i1 status, d1 reach) {
+INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked asked, Weights weights, Reached into,
+    real interval, int patient) {
     int lost, done, there, alike; int64_t i, frame; real fate, part, wish; ALIGNED real S_[140 * (4 * B)];
     memset(S_, 0, sizeof S_); r2 S = {S_, 140, (4 * B), (4 * B)}; ALIGNED real E_[119 * (4 * B)];
     memset(E_, 0, sizeof E_); r2 E = {E_, 119, (4 * B), (4 * B)}; int64_t columns = weights.sums.n1;
@@ -3902,7 +3897,7 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
     real end = (kept - 1) * interval; int64_t coming = min_i(B, count), busy = min_i(B, count); int fresh = 1;
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
         exponents.p[b] = following_taken_in(S, E, B, b, min_i(b, count - 1), frames, balls, interval, weights, asked,
-            r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), reported);
+            r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), into.reported);
         AT2(S, 135, b) = b < count ? R(0.0) : R(1.0);
     }
     while (busy > 0) {
@@ -3924,8 +3919,8 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
             }
             else {
                 if (fate == R(2.0)) {
-                    status.p[i] = (int64_t)AT2(lanes, b, 16); reach.p[i] = AT2(lanes, b, 17);
-                    reached.p[i] = frame - 1; done = 1; lanes_stopped_at(i, frame, frames);
+                    into.status.p[i] = (int64_t)AT2(lanes, b, 16); into.reach.p[i] = AT2(lanes, b, 17);
+                    into.reached.p[i] = frame - 1; done = 1; lanes_stopped_at(i, frame, frames);
                 }
                 else {
                     if (fate == R(3.0)) {
@@ -3941,7 +3936,7 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
                             frame = frame + 1; part = following_part_of(r2_row(lanes, b), frame, interval);
                         }
                         following_recorded(E, B, b, i, end, asked.allowed.p[i], asked.most.p[i], patient,
-                            r2_row(lanes, b), reported);
+                            r2_row(lanes, b), into.reported);
                         int64_t t_1 = frame; real t_2 = R(0.0), t_3 = AT2(lanes, b, 0) + AT2(lanes, b, 1);
                         AT2(lanes, b, 5) = t_1; AT2(lanes, b, 6) = t_2; AT2(lanes, b, 0) = t_3;
                         AT2(lanes, b, 3) = AT2(lanes, b, 3) - R(1.0); lanes_taken_out(S, b, r2_row(bodies, b));
@@ -3949,11 +3944,13 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
                         alike = wish * R(1.15) >= AT2(lanes, b, 1) && wish <= R(1.15) * AT2(lanes, b, 1);
                         if (there) { AT2(lanes, b, 0) = AT2(lanes, b, 19) * interval; }
                         done = there && AT2(lanes, b, 19) == kept - 1;
-                        if (AT2(reported, i, 5) < R(1.0)) {
-                            reached.p[i] = frame - 1; status.p[i] = 0; reach.p[i] = R(1.0); done = 1;
+                        if (AT2(into.reported, i, 5) < R(1.0)) {
+                            into.reached.p[i] = frame - 1; into.status.p[i] = 0; into.reach.p[i] = R(1.0); done = 1;
                         }
                         else {
-                            if (done) { reached.p[i] = kept - 1; status.p[i] = 0; reach.p[i] = R(1.0); }
+                            if (done) {
+                                into.reached.p[i] = kept - 1; into.status.p[i] = 0; into.reach.p[i] = R(1.0);
+                            }
                             else {
                                 if ((there || !alike) && following_aimed(r2_row(lanes, b), kept, interval)) {
                                     lanes_resized(S, B, b, columns, R(0.5) * AT2(lanes, b, 1) * AT2(lanes, b, 2), now,
@@ -3965,10 +3962,10 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
                 }
             }
             if (done) {
-                AT2(reported, i, 1) = AT2(lanes, b, 7) > R(0.0) ? AT2(lanes, b, 8) / AT2(lanes, b, 7) : R(0.0);
+                AT2(into.reported, i, 1) = AT2(lanes, b, 7) > R(0.0) ? AT2(lanes, b, 8) / AT2(lanes, b, 7) : R(0.0);
                 if (coming < count) {
                     exponents.p[b] = following_taken_in(S, E, B, b, coming, frames, balls, interval, weights, asked,
-                        r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), reported);
+                        r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), into.reported);
                     coming = coming + 1; fresh = 1;
                 }
                 else { AT2(S, 135, b) = R(1.0); busy = busy - 1; }
@@ -3977,22 +3974,14 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
     }
 }
 
-INLINE void following_follow(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
-    Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
-    Balls balls = (Balls){J0, D0, radius}; Asked asked = (Asked){first, allowed, most, start};
-    Weights weights = (Weights){sums, following, beginning};
-    following_follow_lanes(8, frames, balls, interval, asked, patient, weights, reported, reached, status, reach);
+INLINE void following_follow(Frames frames, Balls balls, Asked asked, Weights weights, Reached into, real interval,
+    int patient) {
+    following_follow_lanes(8, frames, balls, asked, weights, into, interval, patient);
 }
 
-INLINE void following_follow_alone(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
-    Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
-    Balls balls = (Balls){J0, D0, radius}; Asked asked = (Asked){first, allowed, most, start};
-    Weights weights = (Weights){sums, following, beginning};
-    following_follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach);
+INLINE void following_follow_alone(Frames frames, Balls balls, Asked asked, Weights weights, Reached into, real
+    interval, int patient) {
+    following_follow_lanes(1, frames, balls, asked, weights, into, interval, patient);
 }
 
 INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
@@ -4061,26 +4050,30 @@ INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int s
 #ifndef LIBRARY
 #ifdef LONG
 WIDEST static void in_lanes_march(const argument *a, argument *got) {
-    lanes_march(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), i_(10), b_(11), b_(12),
-        r2_(13), r3_(14), r2_(15), r2_(16), r1_(17), i1_(18), i1_(19), d1_(20));
+    lanes_march((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)}, (Run){r_(9),
+        i_(10), i_(11), i_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){r2_(16), r1_(17), i1_(18), i1_(19),
+        d1_(20)});
     (void)got;
 }
 
 WIDER static void in_lanes_march_alone(const argument *a, argument *got) {
-    lanes_march_alone(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), i_(10), b_(11),
-        b_(12), r2_(13), r3_(14), r2_(15), r2_(16), r1_(17), i1_(18), i1_(19), d1_(20));
+    lanes_march_alone((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
+        (Run){r_(9), i_(10), i_(11), i_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){r2_(16), r1_(17), i1_(18),
+        i1_(19), d1_(20)});
     (void)got;
 }
 
 WIDEST static void in_following_follow(const argument *a, argument *got) {
-    following_follow(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10), r1_(11),
-        b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
+    following_follow((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
+        (Asked){r1_(9), r1_(10), r1_(11), r1_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Reached){r2_(16), i1_(17),
+        i1_(18), d1_(19)}, r_(20), b_(21));
     (void)got;
 }
 
 WIDER static void in_following_follow_alone(const argument *a, argument *got) {
-    following_follow_alone(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10),
-        r1_(11), b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
+    following_follow_alone((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
+        (Asked){r1_(9), r1_(10), r1_(11), r1_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Reached){r2_(16), i1_(17),
+        i1_(18), d1_(19)}, r_(20), b_(21));
     (void)got;
 }
 
@@ -4173,10 +4166,10 @@ static void in_expected_estimated(const argument *a, argument *got) {
 
 const loop_export LOOPS()[] = {
 #ifdef LONG
-    {"lanes_march", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
-    {"lanes_march_alone", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march_alone},
-    {"following_follow", "r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow},
-    {"following_follow_alone", "r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_alone},
+    {"lanes_march", "r3* r3* r3* r3* b* b* r2 r1 r1 r i i i r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
+    {"lanes_march_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r i i i r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march_alone},
+    {"following_follow", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 r2* i1* i1* d1* r b", "", in_following_follow},
+    {"following_follow_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 r2* i1* i1* d1* r b", "", in_following_follow_alone},
 #else
     {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
     {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
@@ -4200,6 +4193,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "094236c60ced566569490ff2b7784830909876d6829a066d4f7b71d38d8ed934";
+const char loops_text[] = "aeac4271190720c360c2e701d2c22a35761c4bed7e12ae15d2f118bd556fe466";
 #endif
 #endif

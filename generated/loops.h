@@ -9,7 +9,7 @@
 typedef struct { void *p; int64_t n[4], s[3]; double number; int64_t integer; } argument;
 
 /* A loop: `takes` has a word for each argument (b, i, r for a truth, an integer, a number; the letter of the elements
-   and the number of axes for an array; * if it is written), and `gives` a letter for each result. */
+   and the number of axes for an array; * if it is written; a record is its fields), and `gives` a letter a result. */
 typedef struct { const char *name, *takes, *gives; void (*run)(const argument *, argument *); } loop_export;
 
 extern const loop_export loops_double[], loops_long[], loops_single[];

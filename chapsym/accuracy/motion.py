@@ -51,8 +51,9 @@ from chapsym.dynamics.ball import (
     unit_vertical,
 )
 from chapsym.dynamics.enclosed_motion import of_motion
-from chapsym.dynamics.extrapolation import FEW, loop_weights
+from chapsym.dynamics.extrapolation import FEW, loop_weights, of_some
 from chapsym.dynamics.levels.frames import Count, cores, share, watched
+from chapsym.dynamics.loops import following, lanes
 from chapsym.dynamics.loops.expected import (
     ALLOWED,
     CONDITION,
@@ -67,7 +68,7 @@ from chapsym.dynamics.loops.expected import (
     estimated,
     surveyed,
 )
-from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, follow, follow_alone
+from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, Reached, follow, follow_alone
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
@@ -607,27 +608,33 @@ def _run(
     """
     n, ball, follows, traced = len(problem), problem.ball, problem.attitude is not None, problem.contact
     reported, reach, noise, started = np.zeros((n, REPORTED)), np.empty(n), np.empty(n), np.empty(n)
-    frames = (
+    frames = lanes.Frames(
         found.angular_momentum, found.gamma, np.empty((n, 0, 4)) if found.attitude is None else found.attitude,
-        np.empty((n, 0, 2)) if found.contact is None else found.contact, np.ascontiguousarray(ball.mass_tensor), ball.D,
-        ball.D if ball.radius is None or not traced else ball.radius,
+        np.empty((n, 0, 2)) if found.contact is None else found.contact, follows, traced,
     )  # fmt: skip
-    ends = reported, found.reached, found.status, reach
+    radius = ball.D if ball.radius is None or not traced else ball.radius
+    balls = lanes.Balls(np.ascontiguousarray(ball.mass_tensor), ball.D, radius)
+    into = Reached(reported, found.reached, found.status, reach)
     loop, width = (native.loop(follow_alone), 1) if n < FEW else (native.loop(follow), TOGETHER)
     shortest = first.item() if n == 1 else float(first.min(initial=problem.end))
     quick = n * (problem.end * STEP + problem.frames * FRAME * shortest) <= QUICK * shortest
-    asked, weights = (first, allowed, problem.survey[MOST], problem.survey[START]), loop_weights(MOST_COLUMNS)
+    asked, weights = (
+        following.Asked(first, allowed, problem.survey[MOST], problem.survey[START]),
+        loop_weights(MOST_COLUMNS),
+    )
     if n == 1 and quick:
-        loop(*frames, problem.interval, *asked, patient, follows, traced, *weights, *ends)
+        loop(frames, balls, asked, weights, into, problem.interval, patient)
     else:
 
         def task(at: int) -> None:
             if count.stopped:
                 return
             some = slice(at, at + width)
-            balls, wanted, found = ([x[some] for x in arrays] for arrays in (frames, asked, ends))
-            loop(*balls, problem.interval, *wanted, patient, follows, traced, *weights, *found)
-            count.add(len(found[-1]))
+            loop(
+                of_some(frames, some), of_some(balls, some), of_some(asked, some), weights, of_some(into, some),
+                problem.interval, patient,
+            )  # fmt: skip
+            count.add(len(reach[some]))
 
         def look() -> None:
             """Reports the number of balls done, counting others by the fraction of their expected steps."""

@@ -132,15 +132,13 @@ class Printer:
     def __init__(self, printers: "Printers", function: Function) -> None:
         self.printers, self.function, self.module = printers, function, function.module
         #: The tuples and records named in its text, and the names of tuples that are indexed by a variable.
-        self.tuples = set[Any]()
+        self.tuples = set[Any](x for x in map(self.annotated, function.node.args.args) if isinstance(x, Record))
         self.listed = {
             n.value.id
             for n in ast.walk(function.node)
             if isinstance(n, ast.Subscript) and isinstance(n.value, ast.Name) and not is_whole(n.slice)
         }
-        self.names: dict[str, Any] = {
-            a.arg: ANNOTATIONS[ast.unparse(a.annotation)] for a in function.node.args.args if a.annotation
-        }
+        self.names: dict[str, Any] = {a.arg: self.annotated(a) for a in function.node.args.args if a.annotation}
         #: The returned type; the parameters whose elements it writes.
         self.returned: Any = None
         self.written: set[str] = set()
@@ -155,6 +153,11 @@ class Printer:
         of_pairs = self.module.name == PAIRS.rpartition(".")[2]
         self.halved = {x for x in function.parameters if of_pairs and f"{x}_" in function.parameters}
         self.statements: list[Statement] | None = None
+
+    def annotated(self, argument: ast.arg) -> Any:
+        """The kind of an annotated parameter, which may be a record of its module."""
+        name = ast.unparse(argument.annotation) if argument.annotation else ""
+        return ANNOTATIONS.get(name) or self.module.names.get(name)
 
     def run(self) -> None:
         """Prints the function."""

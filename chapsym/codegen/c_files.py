@@ -2,7 +2,7 @@
 
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import groupby
+from itertools import count, groupby
 from typing import Any
 
 from .c import NotTranslatable, Printer, Text, block, broken, c_type, is_external, number, printed, widened
@@ -121,7 +121,7 @@ INTERFACE = """#ifndef LOOPS_H
 typedef struct { void *p; int64_t n[4], s[3]; double number; int64_t integer; } argument;
 
 /* A loop: `takes` has a word for each argument (b, i, r for a truth, an integer, a number; the letter of the elements
-   and the number of axes for an array; * if it is written), and `gives` a letter for each result. */
+   and the number of axes for an array; * if it is written; a record is its fields), and `gives` a letter a result. */
 typedef struct { const char *name, *takes, *gives; void (*run)(const argument *, argument *); } loop_export;
 
 extern const loop_export loops_double[], loops_long[], loops_single[];
@@ -234,13 +234,20 @@ class Texts:
             return guarded("#ifdef LONG", f"{long}#else\n{single}{guarded('#ifndef SINGLE', others)}")
 
         ways, rows = map(parts, (self.way_in, self.row))
-        count = "const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();\n"
-        return f"{ways}\nconst loop_export LOOPS()[] = {{\n{rows}}};\n{count}"
+        length = "const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();\n"
+        return f"{ways}\nconst loop_export LOOPS()[] = {{\n{rows}}};\n{length}"
 
     def way_in(self, function: Function) -> str:
         """A wrapper, of a common form, of an exported function."""
-        of = self.of[function]
-        given = ", ".join(f"{of.names[x]}_({i})" for i, x in enumerate(function.parameters))
+        of, at = self.of[function], count()
+
+        def argument(kind: Any) -> str:
+            """An argument from the list; a record from several."""
+            if isinstance(kind, Record):
+                return f"({kind.name}){{{', '.join(argument(one) for _, one in kind.fields)}}}"
+            return f"{kind}_({next(at)})"
+
+        given = ", ".join(argument(of.names[x]) for x in function.parameters)
         wide = "WIDEST " if function.name in WIDEST else "WIDER " if function.name in WIDER else ""
         head = f"{wide}static void in_{function.name}(const argument *a, argument *got)"
         call, out = f"{function.name}({given})", Text("out", of.returned)
@@ -256,7 +263,10 @@ class Texts:
         returned = of.returned if isinstance(of.returned, tuple) else (of.returned,)
         if of.returned is not None and not set(returned) <= {"b", "i", "r", "d"}:
             raise NotTranslatable(f"{function.name}: what is exported returns numbers, not {c_type(of.returned)}")
-        takes = " ".join(f"{of.names[x]}{'*' if x in of.written else ''}" for x in function.parameters)
+        kinds = (
+            (x, kind.fields if isinstance(kind := of.names[x], Record) else [(x, kind)]) for x in function.parameters
+        )
+        takes = " ".join(f"{kind}{'*' if x in of.written else ''}" for x, fields in kinds for _, kind in fields)
         return f'    {{"{function.name}", "{takes}", "{"".join(of.returned or "")}", in_{function.name}}},\n'
 
 

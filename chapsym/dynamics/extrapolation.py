@@ -30,11 +30,10 @@ from .errors import BadInput, Status, StepNotTaken
 from .levels import double_double
 from .levels.dispatch import begun, precision_of
 from .levels.frames import Balls, Count, Frames, cores, share
-from .loops import loop
+from .loops import lanes, loop
 from .loops.double_double import FIRST
 from .loops.guess import guess_weights
-from .loops.lanes import CHANGES, EIGHT, LANES, LAST, MOST_COLUMNS, ROWS, march_alone
-from .loops.lanes import march as march_lanes
+from .loops.lanes import CHANGES, EIGHT, LANES, LAST, MOST_COLUMNS, ROWS, Ends, Weights, march, march_alone
 from .map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from .results import in_given_axes
 from .shown import Brief
@@ -216,7 +215,9 @@ def extrapolate(
         pair = Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
         doubt = double_double.run_long(balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress)
     else:
-        doubt = _march(frames, balls, (h, steps, kept, follows, contact), columns, threads, not shape, progress)
+        states = lanes.Frames(frames.momentum, frames.gamma, frames.attitude, frames.contact, follows, contact)
+        run, weights = lanes.Run(h, 0, steps, kept), loop_weights(columns)
+        doubt = _march(frames, states, lanes.Balls(J, D, radius), run, weights, threads, not shape, progress)
     if not shape and frames.status[0]:
         raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]), int(frames.taken[0]))
 
@@ -235,25 +236,21 @@ def extrapolate(
 
 
 def _march(
-    frames: Frames, balls: Balls, how: tuple[Any, ...], columns: int, threads: int, alone: bool,
-    progress: Callable[[int], None],
+    frames: Frames, states: lanes.Frames, balls: lanes.Balls, run: lanes.Run, weights: Weights, threads: int,
+    alone: bool, progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
     """Takes all long steps, of one ball (`alone`) or of many; returns doubt, (n,)."""
-    n, (h, steps, *what), weights = len(balls.D), how, loop_weights(columns)
-    doubt, chunk = np.empty(n), max(1, CHUNK // stages_of(columns))
-    states = frames.momentum, frames.gamma, frames.attitude, frames.contact, balls.mass_tensor, balls.D, balls.radius
-    ends = doubt, frames.taken, frames.status, frames.reach
+    n, steps, stages = len(balls.contact), run.steps, stages_of(weights.sums.shape[1])
+    doubt, chunk = np.empty(n), max(1, CHUNK // stages)
 
-    def chunks(some: slice, lanes: int) -> Iterator[int]:
+    def chunks(some: slice, width: int) -> Iterator[int]:
         """Takes the steps of some balls in chunks, between which it can be interrupted; yields the steps taken."""
-        kept, march = (
-            np.empty((ROWS + loop.ROWS, LANES * lanes)),
-            native.loop(march_alone if lanes == 1 else march_lanes),
-        )
-        given, found = (tuple(x[some] for x in arrays) for arrays in (states, ends))
+        kept = np.empty((ROWS + loop.ROWS, LANES * width))
+        ends = Ends(kept, doubt[some], frames.taken[some], frames.status[some], frames.reach[some])
+        given, of, take = of_some(states, some), of_some(balls, some), native.loop(march_alone if width == 1 else march)
         for first in range(0, max(steps, 1), chunk):
             last = min(first + chunk, steps)
-            march(*given, h, first, last, *what, *weights, kept, *found)
+            take(given, of, run._replace(first=first, steps=last), weights, ends)
             yield last - first
             if frames.status[some].all():
                 break  # all have stopped
@@ -267,26 +264,31 @@ def _march(
         return doubt
     blocks = (n + EIGHT - FEW) // EIGHT if native.is_compiled() else 0  # the last may have idle lanes
 
-    def task(part: int) -> None:
-        first = EIGHT * part if part < blocks else EIGHT * blocks + part - blocks
-        some = slice(first, first + (EIGHT if part < blocks else 1))
-        for more in chunks(some, EIGHT if part < blocks else 1):
+    def task(at: int) -> None:
+        first, width = (EIGHT * at, EIGHT) if at < blocks else (EIGHT * blocks + at - blocks, 1)
+        some = slice(first, first + width)
+        for more in chunks(some, width):
             count.add(more * len(doubt[some]))
             if count.stopped:
                 break
 
-    parts, work = range(blocks + max(0, n - EIGHT * blocks)), steps * n * stages_of(columns)
+    parts, work = range(blocks + max(0, n - EIGHT * blocks)), steps * n * stages
     workers, count = min(threads or cores(), len(parts)) if work >= SHORT_RUN else 1, Count(progress)
     share(task, parts, workers, count)
     return doubt
 
 
+def of_some(record: Any, some: slice) -> Any:
+    """A record of the loops for some balls."""
+    return type(record)(*(x[some] if isinstance(x, np.ndarray) else x for x in record))
+
+
 @cache
-def loop_weights(columns: int) -> tuple[Floats, Floats, Floats]:
-    """The arguments of the loops: the weights of the columns, as for `march_lanes`, and those of the guesses."""
+def loop_weights(columns: int) -> Weights:
+    """The weights of the columns and those of the guesses."""
     rows = [
         np.array((Fraction(0),) * fewer + weights(columns - fewer), dtype=float)[:columns]
         for fewer in range(2 + CHANGES)
     ]
     changes = [longer - shorter for longer, shorter in pairwise(rows)]
-    return np.array([rows[0], *changes]), *guess_weights(columns)
+    return Weights(np.array([rows[0], *changes]), *guess_weights(columns))

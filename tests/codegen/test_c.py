@@ -222,6 +222,16 @@ def mixed(x, y, u, v):
 def normal(x, y):
     return x * y - y, y - x - 1.0
 
+class Kept(NamedTuple):
+    size: float
+    v: Vector
+    at: Integers
+
+def recorded(n: int, kept: Kept, more: Vector):
+    kept.at[1] = n
+    kept.v[0] = kept.size * n + more[0]
+    return kept.v[0], kept.v[1] - more[1]
+
 def dotted(a, b):
     return a[0] * b[0] + a[1] * b[1]
 
@@ -346,9 +356,20 @@ def test_a_loop_has_the_same_bits_in_c_and_in_python(both, name, dtype):
             assert not isinstance(mine, np.ndarray) or same(mine, its), call
 
 
+def test_a_record_is_passed_as_its_fields(both):
+    sample, _, compiled = both
+    given = [(3, sample.Kept(0.1, V[:2].copy(), np.arange(2)), V[2:4]) for _ in range(2)]
+    run = compiled.double["sample_recorded"]
+    assert same(run(*given[1]), sample.recorded(*given[0]))
+    for _, kept, _ in given:
+        assert [*kept.v, *kept.at] == [0.1 * 3 + V[2], V[1], 0, 3]
+    with pytest.raises(TypeError):
+        run(*given[1], (1.0,) * 99)
+
+
 def test_every_function_of_the_sample_is_called(both):
     only = {f"sample_{name}" for name in ONLY_DOUBLE}
-    assert {f"sample_{name}" for name in CALLS} == set(both[2].double) == set(both[2].single) | only
+    assert {f"sample_{name}" for name in (*CALLS, "recorded")} == set(both[2].double) == set(both[2].single) | only
 
 
 USED = """

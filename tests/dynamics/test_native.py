@@ -2,6 +2,7 @@
 
 import logging
 import os
+from copy import deepcopy
 
 import numpy as np
 import pytest
@@ -25,6 +26,11 @@ def same(a, b):
     return np.array_equal(a, b, equal_nan=True) and np.array_equal(np.signbit(a)[a == a], np.signbit(b)[b == b])
 
 
+def flat(arguments):
+    """Arguments with the fields of records in their places."""
+    return [one for x in arguments for one in (flat(x) if isinstance(x, tuple) else [x])]
+
+
 @pytest.fixture
 def called(monkeypatch):
     """Every loop is called in C and in Python, on copies of the same arguments; the names of those that were."""
@@ -38,10 +44,10 @@ def called(monkeypatch):
         slow = np.errstate(all="ignore")(function if dtype is np.float64 else twins.single(function))
 
         def call(*arguments):
-            copies = [x.copy() if isinstance(x, np.ndarray) else x for x in arguments]
+            copies = deepcopy(arguments)
             wanted, found = slow(*copies), fast(*arguments)
             assert same(np.array(found, dtype=float), np.array(wanted, dtype=float))
-            for i, (x, y) in enumerate(zip(arguments, copies, strict=True)):
+            for i, (x, y) in enumerate(zip(flat(arguments), flat(copies), strict=True)):
                 assert not isinstance(x, np.ndarray) or same(x, y), f"{function.__name__}, the argument {i}"
             names.add(f"{function.__module__.rpartition('.')[2]}_{function.__name__}")
             return found

@@ -26,7 +26,7 @@ from .carried import ROUNDED as ROUNDING
 from .carried import ROWS as ERRORS
 from .carried import SPUN as BY_ATTITUDE
 from .lanes import Balls, Frames, Weights, enter, placed, put_back, resized, safely, shown, stopped_at, taken_out
-from .text import Cube, Doubles, Integers, Matrix, Vector
+from .text import Doubles, Integers, Matrix, Vector
 from .vectors import (
     conjugate,
     dot,
@@ -259,6 +259,15 @@ class Asked(NamedTuple):
     start: Vector
 
 
+class Reached(NamedTuple):
+    """For each ball: reported (balls, REPORTED), the last frame reached, status, reach."""
+
+    reported: Matrix
+    reached: Integers
+    status: Integers
+    reach: Doubles
+
+
 def steps_in(time, step):
     """The least number of equal steps of about this length, at most, that fill a time."""
     count = int(time / step)
@@ -446,11 +455,8 @@ def looked_at(
         put_back(S, b, body)
 
 
-def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, reached, status, reach):
-    """Follows balls from their frames 0 to all other frames, `interval` seconds apart.
-
-    patient: no ball is abandoned.  For each ball: reported (balls, REPORTED), the last frame reached, status, reach.
-    """
+def follow_lanes(B, frames, balls, asked, weights, into, interval, patient):
+    """Follows balls from their frames 0 to all other frames, `interval` seconds apart; patient: abandons no ball."""
     S, E, columns = np.zeros((at.ROWS, at.LANES * B)), np.zeros((ERRORS, at.LANES * B)), weights.sums.shape[1]
     states, exponents = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64)
     bodies, now, found, lanes = np.zeros((B, at.MOVING)), np.zeros(at.MOVING), np.zeros(at.MOVING), np.zeros((B, LANE))
@@ -460,7 +466,7 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
     for b in range(B):
         exponents[b] = taken_in(
             S, E, B, b, min(b, count - 1), frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
-            reported,
+            into.reported,
         )  # fmt: skip
         S[at.RESTS, b] = 0.0 if b < count else 1.0
     while busy > 0:
@@ -484,7 +490,12 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
                 aimed(lanes[b], kept, interval)
                 resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], bodies[b], states[b])
             elif fate == STOPS:
-                status[i], reach[i], reached[i], done = int(lanes[b, STATUS]), lanes[b, REACH], frame - 1, True
+                into.status[i], into.reach[i], into.reached[i], done = (
+                    int(lanes[b, STATUS]),
+                    lanes[b, REACH],
+                    frame - 1,
+                    True,
+                )
                 stopped_at(i, frame, frames)
             elif fate == STAYS:
                 taken_out(S, b, now)
@@ -497,7 +508,7 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
                         shown(found, exponents[b], i, frame, frames)
                     frame += 1
                     part = part_of(lanes[b], frame, interval)
-                recorded(E, B, b, i, end, asked.allowed[i], asked.most[i], patient, lanes[b], reported)
+                recorded(E, B, b, i, end, asked.allowed[i], asked.most[i], patient, lanes[b], into.reported)
                 lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
                 lanes[b, COMING] = lanes[b, COMING] - 1.0
                 taken_out(S, b, bodies[b])
@@ -506,18 +517,18 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
                 if there:
                     lanes[b, NOW] = lanes[b, GOAL] * interval
                 done = there and lanes[b, GOAL] == kept - 1
-                if reported[i, UNTIL] < 1.0:
-                    reached[i], status[i], reach[i], done = frame - 1, 0, 1.0, True
+                if into.reported[i, UNTIL] < 1.0:
+                    into.reached[i], into.status[i], into.reach[i], done = frame - 1, 0, 1.0, True
                 elif done:
-                    reached[i], status[i], reach[i] = kept - 1, 0, 1.0
+                    into.reached[i], into.status[i], into.reach[i] = kept - 1, 0, 1.0
                 elif (there or not alike) and aimed(lanes[b], kept, interval):
                     resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], now, states[b])
             if done:
-                reported[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
+                into.reported[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
                 if coming < count:
                     exponents[b] = taken_in(
                         S, E, B, b, coming, frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
-                        reported,
+                        into.reported,
                     )  # fmt: skip
                     coming, fresh = coming + 1, True
                 else:
@@ -525,25 +536,13 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
                     busy -= 1
 
 
-def follow(
-    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
-    interval: float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool, follows: bool,
-    traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers,
-    status: Integers, reach: Doubles,
-):  # fmt: skip
+def follow(frames: Frames, balls: Balls, asked: Asked, weights: Weights, into: Reached, interval: float, patient: bool):
     """`follow_lanes` with eight balls at a time."""
-    frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
-    asked, weights = Asked(first, allowed, most, start), Weights(sums, following, beginning)
-    follow_lanes(at.EIGHT, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
+    follow_lanes(at.EIGHT, frames, balls, asked, weights, into, interval, patient)
 
 
 def follow_alone(
-    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
-    interval: float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool, follows: bool,
-    traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers,
-    status: Integers, reach: Doubles,
-):  # fmt: skip
+    frames: Frames, balls: Balls, asked: Asked, weights: Weights, into: Reached, interval: float, patient: bool
+):
     """`follow_lanes` with one ball at a time."""
-    frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
-    asked, weights = Asked(first, allowed, most, start), Weights(sums, following, beginning)
-    follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
+    follow_lanes(1, frames, balls, asked, weights, into, interval, patient)

@@ -137,6 +137,25 @@ class Frames(NamedTuple):
     traced: bool
 
 
+class Run(NamedTuple):
+    """The long steps h from `first` to `steps`, of which every `every`-th state is stored."""
+
+    h: float
+    first: int
+    steps: int
+    every: int
+
+
+class Ends(NamedTuple):
+    """The outcome of each ball, (balls,), and in `kept` the complete state between calls."""
+
+    kept: Matrix
+    doubt: Vector
+    taken: Integers
+    status: Integers
+    reach: Doubles
+
+
 def iterate(u, k, g, I, D, heavy, one_is_heavy):
     """A Newton iterate from u, with the stable determinant if the ball is heavy."""
     found = gibbs_newton(*u, *k, *g, *I, D)
@@ -575,25 +594,22 @@ def safely(S, b, sums, state):
     return status, reach
 
 
-def march_lanes(B, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach):
-    """The long steps from `first` to `steps` of at most B balls from their frames 0; stores every `every`-th state.
-
-    kept: the complete state between calls.
-    """
-    S, count = np.zeros((ROWS, LANES * B)), len(status)
+def march_lanes(B, frames, balls, run, weights, ends):
+    """Takes the steps of a run of at most B balls from their frames 0."""
+    S, count, kept = np.zeros((ROWS, LANES * B)), ends.status.shape[0], ends.kept
     states, exponents, body = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64), np.zeros(MOVING)
     for b in range(B):
         i = min(b, count - 1)  # lanes beyond the balls repeat the last
         placed(body, i, frames)
-        exponents[b] = enter(S, B, b, i, balls, h, weights, body, states[b])
-    if first > 0:
+        exponents[b] = enter(S, B, b, i, balls, run.h, weights, body, states[b])
+    if run.first > 0:
         for row in range(ROWS):
             for lane in range(LANES * B):
                 S[row, lane] = kept[row, lane]
         for b in range(B):
             for row in range(loop.ROWS):
                 states[b, row] = kept[ROWS + row, b]
-    for step in range(first, steps):
+    for step in range(run.first, run.steps):
         if side_by_side(S, B, frames.traced, weights):
             for b in range(B):
                 if S[LOST, b] != 0.0 and S[RESTS, b] == 0.0:
@@ -601,13 +617,13 @@ def march_lanes(B, frames, balls, h, first, steps, every, weights, kept, doubt, 
                     if stopped != 0:
                         S[RESTS, b] = 1.0
                         if b < count:
-                            status[b], reach[b], taken[b] = stopped, reached, step
-                            stopped_at(b, step // every + 1, frames)
-        if (step + 1) % every == 0:
+                            ends.status[b], ends.reach[b], ends.taken[b] = stopped, reached, step
+                            stopped_at(b, step // run.every + 1, frames)
+        if (step + 1) % run.every == 0:
             for b in range(count):
-                if status[b] == 0:
+                if ends.status[b] == 0:
                     taken_out(S, b, body)
-                    shown(body, exponents[b], b, (step + 1) // every, frames)
+                    shown(body, exponents[b], b, (step + 1) // run.every, frames)
     for row in range(ROWS):
         for lane in range(LANES * B):
             kept[row, lane] = S[row, lane]
@@ -615,28 +631,16 @@ def march_lanes(B, frames, balls, h, first, steps, every, weights, kept, doubt, 
         for row in range(loop.ROWS):
             kept[ROWS + row, b] = states[b, row]
     for b in range(count):
-        doubt[b] = S[MOVED + DOUBT, b] if status[b] == 0 else nan
-        if status[b] == 0:
-            taken[b], reach[b] = steps, 1.0
+        ends.doubt[b] = S[MOVED + DOUBT, b] if ends.status[b] == 0 else nan
+        if ends.status[b] == 0:
+            ends.taken[b], ends.reach[b] = run.steps, 1.0
 
 
-def march(
-    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
-    h: float, first: int, steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube,
-    beginning: Matrix, kept: Matrix, doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
-):  # fmt: skip
+def march(frames: Frames, balls: Balls, run: Run, weights: Weights, ends: Ends):
     """`march_lanes` for eight balls or fewer."""
-    frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
-    weights = Weights(sums, following, beginning)
-    march_lanes(EIGHT, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach)
+    march_lanes(EIGHT, frames, balls, run, weights, ends)
 
 
-def march_alone(
-    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
-    h: float, first: int, steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube,
-    beginning: Matrix, kept: Matrix, doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
-):  # fmt: skip
+def march_alone(frames: Frames, balls: Balls, run: Run, weights: Weights, ends: Ends):
     """`march_lanes` for one ball."""
-    frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
-    weights = Weights(sums, following, beginning)
-    march_lanes(1, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach)
+    march_lanes(1, frames, balls, run, weights, ends)

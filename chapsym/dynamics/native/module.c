@@ -1,8 +1,8 @@
 /* The loops of generated/loops.c as a module of Python: `chapsym.dynamics.native.compiled`.
  *
  * Its dictionaries `double` and `single` have a function for each loop that is exported, by the loop's name.  Arguments
- * are numbers and arrays, by position; arrays are passed by the buffer protocol, not copied.  While a loop runs, other
- * threads do, too.
+ * are numbers and arrays, by position, or tuples of these; arrays are passed by the buffer protocol, not copied.  While
+ * a loop runs, other threads do, too.
  */
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
@@ -67,9 +67,22 @@ static PyObject *give(const char *kinds, const argument *values) {
     return all;
 }
 
-static PyObject *call(PyObject *self, PyObject *const *objects, Py_ssize_t count) {
+/* Appends objects to a list, and for a tuple its items; returns the new length, which may be more than there is room. */
+static Py_ssize_t flat(PyObject *const *objects, Py_ssize_t count, PyObject **list, Py_ssize_t length) {
+    for (Py_ssize_t i = 0; i < count; i++)
+        if (!PyTuple_Check(objects[i])) { if (length++ < MOST) list[length - 1] = objects[i]; }
+        else for (Py_ssize_t j = 0; j < PyTuple_Size(objects[i]); j++) {
+            PyObject *one = PyTuple_GetItem(objects[i], j);
+            length = flat(&one, 1, list, length);
+        }
+    return length;
+}
+
+static PyObject *call(PyObject *self, PyObject *const *given_ones, Py_ssize_t count) {
     const loop_export *loop = PyCapsule_GetPointer(self, NULL);
     if (!loop) return NULL;
+    PyObject *objects[MOST];
+    count = flat(given_ones, count, objects, 0);
     int is_single = loop >= loops_single && loop < loops_single + loops_single_count;
     argument arguments[MOST], values[MOST];
     Py_buffer views[MOST];
