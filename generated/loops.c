@@ -85,9 +85,8 @@ INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_r
 
 typedef struct { r1 first, allowed, most, start; } Asked;
 typedef struct { r2 tensor; r1 contact, radius; } Balls;
-typedef struct { r2 kept; r1 doubt; i1 taken, status; d1 reach; } Ends;
+typedef struct { i1 taken, status; d1 reach; } Ends;
 typedef struct { r3 momenta, verticals, attitudes, traces; int follows, traced; } Frames;
-typedef struct { r2 reported; i1 reached, status; d1 reach; } Reached;
 typedef struct { real w, m, rest, shift, curved; } Root;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { real a0, a1, a2; } t_r3;
@@ -1744,12 +1743,13 @@ INLINE void lanes_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, Fra
     if (frames.traced) { AT3(frames.traces, i, frame, 0) = body.p[10]; AT3(frames.traces, i, frame, 1) = body.p[11]; }
 }
 
-INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, Weights weights, Ends ends) {
+INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, Weights weights, Ends ends, r1 doubt, r2
+    kept) {
     int64_t i; t_ir stopped; ALIGNED real S_[140 * (4 * B)]; memset(S_, 0, sizeof S_);
-    r2 S = {S_, 140, (4 * B), (4 * B)}; int64_t count = ends.status.n0; r2 kept = ends.kept;
-    ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27};
-    ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
-    ALIGNED real body_[24]; memset(body_, 0, sizeof body_); r1 body = {body_, 24};
+    r2 S = {S_, 140, (4 * B), (4 * B)}; int64_t count = ends.status.n0; ALIGNED real states_[B * 27];
+    memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B];
+    memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B}; ALIGNED real body_[24];
+    memset(body_, 0, sizeof body_); r1 body = {body_, 24};
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
         i = min_i(b, count - 1); lanes_placed(body, i, frames);
         exponents.p[b] = lanes_enter(S, B, b, i, balls, run.h, weights, body, r2_row(states, b));
@@ -1797,17 +1797,17 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, We
         for (int64_t row = 0; row < 27; row++) { AT2(kept, 140 + row, b) = AT2(states, b, row); }
     }
     for (int64_t b = 0, end_b = count; b < end_b; b++) {
-        ends.doubt.p[b] = ends.status.p[b] == 0 ? AT2(S, 117, b) : R(NAN);
+        doubt.p[b] = ends.status.p[b] == 0 ? AT2(S, 117, b) : R(NAN);
         if (ends.status.p[b] == 0) { ends.taken.p[b] = run.steps; ends.reach.p[b] = R(1.0); }
     }
 }
 
-INLINE void lanes_march(Frames frames, Balls balls, Run run, Weights weights, Ends ends) {
-    lanes_march_lanes(8, frames, balls, run, weights, ends);
+INLINE void lanes_march(Frames frames, Balls balls, Run run, Weights weights, Ends ends, r1 doubt, r2 kept) {
+    lanes_march_lanes(8, frames, balls, run, weights, ends, doubt, kept);
 }
 
-INLINE void lanes_march_alone(Frames frames, Balls balls, Run run, Weights weights, Ends ends) {
-    lanes_march_lanes(1, frames, balls, run, weights, ends);
+INLINE void lanes_march_alone(Frames frames, Balls balls, Run run, Weights weights, Ends ends, r1 doubt, r2 kept) {
+    lanes_march_lanes(1, frames, balls, run, weights, ends, doubt, kept);
 }
 
 INLINE void loop_n_guess(r3 past, r1 use, r2 E) {
@@ -3879,8 +3879,8 @@ INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, 
     lane.p[8] = max_r(lane.p[8], cautious * AT2(E, 84, b) + spun + off * max_r(speed, following_spinning(E, B, b)));
 }
 
-INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked asked, Weights weights, Reached into,
-    real interval, int patient) {
+INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked asked, Weights weights, Ends outcome,
+    r2 reported, real interval, int patient) {
     int lost, done, there, alike; int64_t i, frame; real fate, part, wish; ALIGNED real S_[140 * (4 * B)];
     memset(S_, 0, sizeof S_); r2 S = {S_, 140, (4 * B), (4 * B)}; ALIGNED real E_[119 * (4 * B)];
     memset(E_, 0, sizeof E_); r2 E = {E_, 119, (4 * B), (4 * B)}; int64_t columns = weights.sums.n1;
@@ -3897,7 +3897,7 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
     real end = (kept - 1) * interval; int64_t coming = min_i(B, count), busy = min_i(B, count); int fresh = 1;
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
         exponents.p[b] = following_taken_in(S, E, B, b, min_i(b, count - 1), frames, balls, interval, weights, asked,
-            r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), into.reported);
+            r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), reported);
         AT2(S, 135, b) = b < count ? R(0.0) : R(1.0);
     }
     while (busy > 0) {
@@ -3919,8 +3919,8 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
             }
             else {
                 if (fate == R(2.0)) {
-                    into.status.p[i] = (int64_t)AT2(lanes, b, 16); into.reach.p[i] = AT2(lanes, b, 17);
-                    into.reached.p[i] = frame - 1; done = 1; lanes_stopped_at(i, frame, frames);
+                    outcome.status.p[i] = (int64_t)AT2(lanes, b, 16); outcome.reach.p[i] = AT2(lanes, b, 17);
+                    outcome.taken.p[i] = frame - 1; done = 1; lanes_stopped_at(i, frame, frames);
                 }
                 else {
                     if (fate == R(3.0)) {
@@ -3936,7 +3936,7 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
                             frame = frame + 1; part = following_part_of(r2_row(lanes, b), frame, interval);
                         }
                         following_recorded(E, B, b, i, end, asked.allowed.p[i], asked.most.p[i], patient,
-                            r2_row(lanes, b), into.reported);
+                            r2_row(lanes, b), reported);
                         int64_t t_1 = frame; real t_2 = R(0.0), t_3 = AT2(lanes, b, 0) + AT2(lanes, b, 1);
                         AT2(lanes, b, 5) = t_1; AT2(lanes, b, 6) = t_2; AT2(lanes, b, 0) = t_3;
                         AT2(lanes, b, 3) = AT2(lanes, b, 3) - R(1.0); lanes_taken_out(S, b, r2_row(bodies, b));
@@ -3944,12 +3944,13 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
                         alike = wish * R(1.15) >= AT2(lanes, b, 1) && wish <= R(1.15) * AT2(lanes, b, 1);
                         if (there) { AT2(lanes, b, 0) = AT2(lanes, b, 19) * interval; }
                         done = there && AT2(lanes, b, 19) == kept - 1;
-                        if (AT2(into.reported, i, 5) < R(1.0)) {
-                            into.reached.p[i] = frame - 1; into.status.p[i] = 0; into.reach.p[i] = R(1.0); done = 1;
+                        if (AT2(reported, i, 5) < R(1.0)) {
+                            outcome.taken.p[i] = frame - 1; outcome.status.p[i] = 0; outcome.reach.p[i] = R(1.0);
+                            done = 1;
                         }
                         else {
                             if (done) {
-                                into.reached.p[i] = kept - 1; into.status.p[i] = 0; into.reach.p[i] = R(1.0);
+                                outcome.taken.p[i] = kept - 1; outcome.status.p[i] = 0; outcome.reach.p[i] = R(1.0);
                             }
                             else {
                                 if ((there || !alike) && following_aimed(r2_row(lanes, b), kept, interval)) {
@@ -3962,10 +3963,10 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
                 }
             }
             if (done) {
-                AT2(into.reported, i, 1) = AT2(lanes, b, 7) > R(0.0) ? AT2(lanes, b, 8) / AT2(lanes, b, 7) : R(0.0);
+                AT2(reported, i, 1) = AT2(lanes, b, 7) > R(0.0) ? AT2(lanes, b, 8) / AT2(lanes, b, 7) : R(0.0);
                 if (coming < count) {
                     exponents.p[b] = following_taken_in(S, E, B, b, coming, frames, balls, interval, weights, asked,
-                        r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), into.reported);
+                        r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), reported);
                     coming = coming + 1; fresh = 1;
                 }
                 else { AT2(S, 135, b) = R(1.0); busy = busy - 1; }
@@ -3974,14 +3975,14 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
     }
 }
 
-INLINE void following_follow(Frames frames, Balls balls, Asked asked, Weights weights, Reached into, real interval,
-    int patient) {
-    following_follow_lanes(8, frames, balls, asked, weights, into, interval, patient);
+INLINE void following_follow(Frames frames, Balls balls, Asked asked, Weights weights, Ends ends, r2 reported, real
+    interval, int patient) {
+    following_follow_lanes(8, frames, balls, asked, weights, ends, reported, interval, patient);
 }
 
-INLINE void following_follow_alone(Frames frames, Balls balls, Asked asked, Weights weights, Reached into, real
-    interval, int patient) {
-    following_follow_lanes(1, frames, balls, asked, weights, into, interval, patient);
+INLINE void following_follow_alone(Frames frames, Balls balls, Asked asked, Weights weights, Ends ends, r2 reported,
+    real interval, int patient) {
+    following_follow_lanes(1, frames, balls, asked, weights, ends, reported, interval, patient);
 }
 
 INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
@@ -4051,29 +4052,29 @@ INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int s
 #ifdef LONG
 WIDEST static void in_lanes_march(const argument *a, argument *got) {
     lanes_march((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)}, (Run){r_(9),
-        i_(10), i_(11), i_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){r2_(16), r1_(17), i1_(18), i1_(19),
-        d1_(20)});
+        i_(10), i_(11), i_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){i1_(16), i1_(17), d1_(18)}, r1_(19),
+        r2_(20));
     (void)got;
 }
 
 WIDER static void in_lanes_march_alone(const argument *a, argument *got) {
     lanes_march_alone((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
-        (Run){r_(9), i_(10), i_(11), i_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){r2_(16), r1_(17), i1_(18),
-        i1_(19), d1_(20)});
+        (Run){r_(9), i_(10), i_(11), i_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){i1_(16), i1_(17), d1_(18)},
+        r1_(19), r2_(20));
     (void)got;
 }
 
 WIDEST static void in_following_follow(const argument *a, argument *got) {
     following_follow((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
-        (Asked){r1_(9), r1_(10), r1_(11), r1_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Reached){r2_(16), i1_(17),
-        i1_(18), d1_(19)}, r_(20), b_(21));
+        (Asked){r1_(9), r1_(10), r1_(11), r1_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){i1_(16), i1_(17),
+        d1_(18)}, r2_(19), r_(20), b_(21));
     (void)got;
 }
 
 WIDER static void in_following_follow_alone(const argument *a, argument *got) {
     following_follow_alone((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
-        (Asked){r1_(9), r1_(10), r1_(11), r1_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Reached){r2_(16), i1_(17),
-        i1_(18), d1_(19)}, r_(20), b_(21));
+        (Asked){r1_(9), r1_(10), r1_(11), r1_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){i1_(16), i1_(17),
+        d1_(18)}, r2_(19), r_(20), b_(21));
     (void)got;
 }
 
@@ -4166,10 +4167,10 @@ static void in_expected_estimated(const argument *a, argument *got) {
 
 const loop_export LOOPS()[] = {
 #ifdef LONG
-    {"lanes_march", "r3* r3* r3* r3* b* b* r2 r1 r1 r i i i r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
-    {"lanes_march_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r i i i r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march_alone},
-    {"following_follow", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 r2* i1* i1* d1* r b", "", in_following_follow},
-    {"following_follow_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 r2* i1* i1* d1* r b", "", in_following_follow_alone},
+    {"lanes_march", "r3* r3* r3* r3* b* b* r2 r1 r1 r i i i r2 r3 r2 i1* i1* d1* r1* r2*", "", in_lanes_march},
+    {"lanes_march_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r i i i r2 r3 r2 i1* i1* d1* r1* r2*", "", in_lanes_march_alone},
+    {"following_follow", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 i1* i1* d1* r2* r b", "", in_following_follow},
+    {"following_follow_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 i1* i1* d1* r2* r b", "", in_following_follow_alone},
 #else
     {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
     {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
@@ -4193,6 +4194,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "aeac4271190720c360c2e701d2c22a35761c4bed7e12ae15d2f118bd556fe466";
+const char loops_text[] = "e108bddc371c292627bfa08537bde71f6b32707fc211f96cbf33db293ece6b52";
 #endif
 #endif

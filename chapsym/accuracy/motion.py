@@ -68,7 +68,7 @@ from chapsym.dynamics.loops.expected import (
     estimated,
     surveyed,
 )
-from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, Reached, follow, follow_alone
+from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, follow, follow_alone
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
@@ -614,26 +614,22 @@ def _run(
     )  # fmt: skip
     radius = ball.D if ball.radius is None or not traced else ball.radius
     balls = lanes.Balls(np.ascontiguousarray(ball.mass_tensor), ball.D, radius)
-    into = Reached(reported, found.reached, found.status, reach)
+    ends = lanes.Ends(found.reached, found.status, reach)
     loop, width = (native.loop(follow_alone), 1) if n < FEW else (native.loop(follow), TOGETHER)
     shortest = first.item() if n == 1 else float(first.min(initial=problem.end))
     quick = n * (problem.end * STEP + problem.frames * FRAME * shortest) <= QUICK * shortest
-    asked, weights = (
-        following.Asked(first, allowed, problem.survey[MOST], problem.survey[START]),
-        loop_weights(MOST_COLUMNS),
-    )
+    asked = following.Asked(first, allowed, problem.survey[MOST], problem.survey[START])
+    weights = loop_weights(MOST_COLUMNS)
     if n == 1 and quick:
-        loop(frames, balls, asked, weights, into, problem.interval, patient)
+        loop(frames, balls, asked, weights, ends, reported, problem.interval, patient)
     else:
 
         def task(at: int) -> None:
             if count.stopped:
                 return
             some = slice(at, at + width)
-            loop(
-                of_some(frames, some), of_some(balls, some), of_some(asked, some), weights, of_some(into, some),
-                problem.interval, patient,
-            )  # fmt: skip
+            parts = (of_some(record, some) for record in (frames, balls, asked))
+            loop(*parts, weights, of_some(ends, some), reported[some], problem.interval, patient)
             count.add(len(reach[some]))
 
         def look() -> None:

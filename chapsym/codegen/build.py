@@ -40,17 +40,9 @@ class NoKernels(NoRegister):
 
 
 class Package:
-    """The kernels of a register, and the folder of the generated files.
+    """The kernels of a register, the list KERNELS of its `kernels.py`, and the folder of the generated files.
 
-    Parameters
-    ----------
-    register : Register
-        The register; its `kernels.py` has KERNELS.
-
-    Raises
-    ------
-    NoKernels
-        If there is no such list.
+    Raises NoKernels if there is no such list.
     """
 
     def __init__(self, register: Register = PROOFS) -> None:

@@ -246,11 +246,11 @@ def _march(
     def chunks(some: slice, width: int) -> Iterator[int]:
         """Takes the steps of some balls in chunks, between which it can be interrupted; yields the steps taken."""
         kept = np.empty((ROWS + loop.ROWS, LANES * width))
-        ends = Ends(kept, doubt[some], frames.taken[some], frames.status[some], frames.reach[some])
+        ends = Ends(frames.taken[some], frames.status[some], frames.reach[some])
         given, of, take = of_some(states, some), of_some(balls, some), native.loop(march_alone if width == 1 else march)
         for first in range(0, max(steps, 1), chunk):
             last = min(first + chunk, steps)
-            take(given, of, run._replace(first=first, steps=last), weights, ends)
+            take(given, of, run._replace(first=first, steps=last), weights, ends, doubt[some], kept)
             yield last - first
             if frames.status[some].all():
                 break  # all have stopped

@@ -30,12 +30,7 @@ Point = dict[sp.Symbol, sp.Expr]
 class Letters:
     """Letters for the sines, cosines and square roots of expressions, in the order in which one needs another.
 
-    Parameters
-    ----------
-    reserved : iterable of sympy.Symbol
-        Names that the letters must not have.
-    plain : bool
-        Whether they are named l0, l1, ..., and not after their meanings.
+    reserved: names that they must not have; plain: they are named l0, l1, ..., and not after their meanings.
     """
 
     def __init__(self, reserved: Iterable[sp.Symbol] = (), plain: bool = False) -> None:
@@ -131,18 +126,7 @@ class Algebra:
 
     Angles are expanded: sin(a + 2 b) is expressed in the letters of a and b.  Expressions with relations beyond those
     of the ring are refused: sines and cosines must have single coordinates, which no holonomic constraint contains
-    outside of them; no product of roots may be rational.
-
-    Parameters
-    ----------
-    system : System
-    *more : sympy.Expr
-        Further expressions besides the constraints.
-
-    Raises
-    ------
-    BadSystem
-        For expressions that it cannot represent.
+    outside of them; no product of roots may be rational.  more: expressions besides the constraints.  Raises BadSystem.
     """
 
     def __init__(self, system: System, *more: sp.Expr) -> None:

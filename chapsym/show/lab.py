@@ -23,17 +23,7 @@ method.</p>
 
 
 def page(cells: Sequence[Data], titles: Mapping[str, str], constraints: Mapping[str, str]) -> str:
-    """The page, as text.
-
-    Parameters
-    ----------
-    cells : sequence of mapping
-        Results of `chapsym.mechanics.Cell.data`.
-    titles : mapping
-        The titles of the methods.
-    constraints : mapping
-        The sentences on the constraints of each system.
-    """
+    """The page, as text; the cells are `chapsym.mechanics.Cell.data`, of each system a sentence on its constraints."""
     from .drawing.style import document
 
     names = dict.fromkeys(cell["system"] for cell in cells)

@@ -25,8 +25,8 @@ from .carried import FOUND, GRADIENT, PART, SWAY, UNIT_ROUNDING, WHOLE, begun, c
 from .carried import ROUNDED as ROUNDING
 from .carried import ROWS as ERRORS
 from .carried import SPUN as BY_ATTITUDE
-from .lanes import Balls, Frames, Weights, enter, placed, put_back, resized, safely, shown, stopped_at, taken_out
-from .text import Doubles, Integers, Matrix, Vector
+from .lanes import Balls, Ends, Frames, Weights, enter, placed, put_back, resized, safely, shown, stopped_at, taken_out
+from .text import Matrix, Vector
 from .vectors import (
     conjugate,
     dot,
@@ -259,15 +259,6 @@ class Asked(NamedTuple):
     start: Vector
 
 
-class Reached(NamedTuple):
-    """For each ball: reported (balls, REPORTED), the last frame reached, status, reach."""
-
-    reported: Matrix
-    reached: Integers
-    status: Integers
-    reach: Doubles
-
-
 def steps_in(time, step):
     """The least number of equal steps of about this length, at most, that fill a time."""
     count = int(time / step)
@@ -455,8 +446,11 @@ def looked_at(
         put_back(S, b, body)
 
 
-def follow_lanes(B, frames, balls, asked, weights, into, interval, patient):
-    """Follows balls from their frames 0 to all other frames, `interval` seconds apart; patient: abandons no ball."""
+def follow_lanes(B, frames, balls, asked, weights, outcome, reported, interval, patient):
+    """Follows balls from their frames 0 to all other frames, `interval` seconds apart; patient: abandons no ball.
+
+    outcome, reported: (balls,), with the last frames that are reached, and (balls, REPORTED).
+    """
     S, E, columns = np.zeros((at.ROWS, at.LANES * B)), np.zeros((ERRORS, at.LANES * B)), weights.sums.shape[1]
     states, exponents = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64)
     bodies, now, found, lanes = np.zeros((B, at.MOVING)), np.zeros(at.MOVING), np.zeros(at.MOVING), np.zeros((B, LANE))
@@ -466,7 +460,7 @@ def follow_lanes(B, frames, balls, asked, weights, into, interval, patient):
     for b in range(B):
         exponents[b] = taken_in(
             S, E, B, b, min(b, count - 1), frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
-            into.reported,
+            reported,
         )  # fmt: skip
         S[at.RESTS, b] = 0.0 if b < count else 1.0
     while busy > 0:
@@ -490,7 +484,7 @@ def follow_lanes(B, frames, balls, asked, weights, into, interval, patient):
                 aimed(lanes[b], kept, interval)
                 resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], bodies[b], states[b])
             elif fate == STOPS:
-                into.status[i], into.reach[i], into.reached[i], done = (
+                outcome.status[i], outcome.reach[i], outcome.taken[i], done = (
                     int(lanes[b, STATUS]),
                     lanes[b, REACH],
                     frame - 1,
@@ -508,7 +502,7 @@ def follow_lanes(B, frames, balls, asked, weights, into, interval, patient):
                         shown(found, exponents[b], i, frame, frames)
                     frame += 1
                     part = part_of(lanes[b], frame, interval)
-                recorded(E, B, b, i, end, asked.allowed[i], asked.most[i], patient, lanes[b], into.reported)
+                recorded(E, B, b, i, end, asked.allowed[i], asked.most[i], patient, lanes[b], reported)
                 lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
                 lanes[b, COMING] = lanes[b, COMING] - 1.0
                 taken_out(S, b, bodies[b])
@@ -517,18 +511,18 @@ def follow_lanes(B, frames, balls, asked, weights, into, interval, patient):
                 if there:
                     lanes[b, NOW] = lanes[b, GOAL] * interval
                 done = there and lanes[b, GOAL] == kept - 1
-                if into.reported[i, UNTIL] < 1.0:
-                    into.reached[i], into.status[i], into.reach[i], done = frame - 1, 0, 1.0, True
+                if reported[i, UNTIL] < 1.0:
+                    outcome.taken[i], outcome.status[i], outcome.reach[i], done = frame - 1, 0, 1.0, True
                 elif done:
-                    into.reached[i], into.status[i], into.reach[i] = kept - 1, 0, 1.0
+                    outcome.taken[i], outcome.status[i], outcome.reach[i] = kept - 1, 0, 1.0
                 elif (there or not alike) and aimed(lanes[b], kept, interval):
                     resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], now, states[b])
             if done:
-                into.reported[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
+                reported[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
                 if coming < count:
                     exponents[b] = taken_in(
                         S, E, B, b, coming, frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
-                        into.reported,
+                        reported,
                     )  # fmt: skip
                     coming, fresh = coming + 1, True
                 else:
@@ -536,13 +530,17 @@ def follow_lanes(B, frames, balls, asked, weights, into, interval, patient):
                     busy -= 1
 
 
-def follow(frames: Frames, balls: Balls, asked: Asked, weights: Weights, into: Reached, interval: float, patient: bool):
+def follow(
+    frames: Frames, balls: Balls, asked: Asked, weights: Weights, ends: Ends, reported: Matrix, interval: float,
+    patient: bool,
+):  # fmt: skip
     """`follow_lanes` with eight balls at a time."""
-    follow_lanes(at.EIGHT, frames, balls, asked, weights, into, interval, patient)
+    follow_lanes(at.EIGHT, frames, balls, asked, weights, ends, reported, interval, patient)
 
 
 def follow_alone(
-    frames: Frames, balls: Balls, asked: Asked, weights: Weights, into: Reached, interval: float, patient: bool
-):
+    frames: Frames, balls: Balls, asked: Asked, weights: Weights, ends: Ends, reported: Matrix, interval: float,
+    patient: bool,
+):  # fmt: skip
     """`follow_lanes` with one ball at a time."""
-    follow_lanes(1, frames, balls, asked, weights, into, interval, patient)
+    follow_lanes(1, frames, balls, asked, weights, ends, reported, interval, patient)

@@ -147,10 +147,8 @@ class Run(NamedTuple):
 
 
 class Ends(NamedTuple):
-    """The outcome of each ball, (balls,), and in `kept` the complete state between calls."""
+    """The outcome of each ball, (balls,): the steps taken, or the last frame; why not all are; and the reach."""
 
-    kept: Matrix
-    doubt: Vector
     taken: Integers
     status: Integers
     reach: Doubles
@@ -594,9 +592,9 @@ def safely(S, b, sums, state):
     return status, reach
 
 
-def march_lanes(B, frames, balls, run, weights, ends):
-    """Takes the steps of a run of at most B balls from their frames 0."""
-    S, count, kept = np.zeros((ROWS, LANES * B)), ends.status.shape[0], ends.kept
+def march_lanes(B, frames, balls, run, weights, ends, doubt, kept):
+    """Takes the steps of a run of at most B balls from their frames 0; kept: the complete state between calls."""
+    S, count = np.zeros((ROWS, LANES * B)), ends.status.shape[0]
     states, exponents, body = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64), np.zeros(MOVING)
     for b in range(B):
         i = min(b, count - 1)  # lanes beyond the balls repeat the last
@@ -631,16 +629,16 @@ def march_lanes(B, frames, balls, run, weights, ends):
         for row in range(loop.ROWS):
             kept[ROWS + row, b] = states[b, row]
     for b in range(count):
-        ends.doubt[b] = S[MOVED + DOUBT, b] if ends.status[b] == 0 else nan
+        doubt[b] = S[MOVED + DOUBT, b] if ends.status[b] == 0 else nan
         if ends.status[b] == 0:
             ends.taken[b], ends.reach[b] = run.steps, 1.0
 
 
-def march(frames: Frames, balls: Balls, run: Run, weights: Weights, ends: Ends):
+def march(frames: Frames, balls: Balls, run: Run, weights: Weights, ends: Ends, doubt: Vector, kept: Matrix):
     """`march_lanes` for eight balls or fewer."""
-    march_lanes(EIGHT, frames, balls, run, weights, ends)
+    march_lanes(EIGHT, frames, balls, run, weights, ends, doubt, kept)
 
 
-def march_alone(frames: Frames, balls: Balls, run: Run, weights: Weights, ends: Ends):
+def march_alone(frames: Frames, balls: Balls, run: Run, weights: Weights, ends: Ends, doubt: Vector, kept: Matrix):
     """`march_lanes` for one ball."""
-    march_lanes(1, frames, balls, run, weights, ends)
+    march_lanes(1, frames, balls, run, weights, ends, doubt, kept)
