@@ -18,7 +18,7 @@ def committed(name):
 
 def resealed(data):
     """The same with the sentence and the digest that its numbers make: only mathematics is left to refuse it."""
-    with suppress(KeyError, TypeError, IndexError):
+    with suppress(AttributeError, KeyError, TypeError, IndexError):
         data["statement"] = checker.statement(data)
     return maker.sealed(data)
 

@@ -126,11 +126,8 @@ CHANGES = {
     "an unknown name": ("5.4", lambda d: first(d)["left"].__setitem__(0, "z9")),
     "a number not in lowest terms": ("5.4", lambda d: d["points"][0].update(q0="8/10")),
     "an integer as a quotient": ("5.4", lambda d: d["points"][0].update(J1="1/1")),
-    "a decimal": ("5.4", lambda d: d["points"][0].update(q0=0.8)),
-    "true for 1": ("5.4", lambda d: d["points"][0].update(J1=True)),
     "a power that is 0": ("5.4", lambda d: first(d)["left"].__setitem__(0, ["^", "q0", 0])),
     "a sum of one": ("5.4", lambda d: first(d)["left"].__setitem__(0, ["+", "q0"])),
-    "a sum of nothing": ("5.4", lambda d: first(d)["left"].__setitem__(0, [])),
     "another operation": ("5.4", lambda d: first(d)["left"].__setitem__(0, ["-", "q0", "q1"])),
     "fewer entries on the right": ("5.4", lambda d: first(d)["right"].pop()),
     "no entries": ("5.4", lambda d: first(d).update(left=[], right=[], cofactors=[])),
@@ -155,25 +152,12 @@ CHANGES = {
     "a counterexample off the relations": ("2.5-inverse", lambda d: d["counterexamples"][0].update(
         hypotheses=[], point=d["counterexamples"][0]["point"] | {"g1": 5})),
     "no claim": ("5.4", lambda d: d.update(claim="a\nb")),
-    "more sentences than it says": ("5.4", put("sentences", value=7)),
-    "a part that is no list": ("5.4", put("statements", value={})),
-    "a statement that is no object": ("5.4", put("statements", 0, value=[])),
-    "an index out of range": ("5.4", put("statements", 0, "algebra", value=9)),
-    "a negative index": ("5.4", put("statements", 0, "algebra", value=-1)),
-    "a role that is none": ("5.4", put("statements", 0, "role", value="axiom")),
-    "a text that is none": ("5.4", put("statements", 0, "text", value="")),
-    "an algebra that is none": ("5.4", put("algebras", 0, "kind", value="magic")),
-    "a name too many": ("5.4", put("proof", value=1)),
     "a long list": ("5.4", put("sentences", value=[{"role": "said", "text": "x"}] * 3000)),
     "a million letters": ("5.4", lambda d: d["sentences"].extend([{"role": "said", "text": "x" * 3000}] * 340)),
-    "a point that is no object": ("5.4", put("points", 0, value=7)),
     "a point of many values": ("5.4", lambda d: d["points"].append({f"x{i}": 1 for i in range(2001)})),
     "a long name": ("5.4", lambda d: d["counterexamples"][0]["point"].update({"x" * 41: 1})),
     "six rows": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[1]] * 6)),
     "six columns": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[1] * 6])),
-    "no rows": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[])),
-    "no columns": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[]])),
-    "a row that is none": ("5.4", lambda d: d["counterexamples"][0]["point"].update(x=[[1], 1])),
     "a transpose of a product": ("4.9-F", lambda d: d["algebras"][0]["transposes"].append([["*", "R", "R"], "R"])),
     "a transpose of a parameter": ("4.9-F", lambda d: d["algebras"][0]["transposes"].append(["rho", "rho"])),
     "a rule for unknown letters": ("4.9-F", lambda d: d["algebras"][0]["rules"].append(["Q1", "Q2", 0])),
@@ -348,8 +332,7 @@ def small():
         **{f"1 {sign} {x}": by_hand([], [point], [], [], [], [compared(["<=", 0, "x"], [sign, "x", x])])
            for sign, x in (("<", 1), ("<", 0), ("<=", 0), ("=", 2), ("!=", 1))},
         **{f"it rests on {name!r}": resting(name)
-           for name in ("", "a b", "prop-1", "0" * 63, "g" * 64, f"a  {'0' * 64}", 7, None, ["prop-1"])},
-        "it rests on a role that is none": resting("0" * 64, role="said"),
+           for name in ("a b", "prop-1", "0" * 63, "g" * 64, f"a  {'0' * 64}")},
         "it confirms a statement twice": by_hand([identity, wrong], [point], [ONE, FREE], [
             contradicted(1, {"x": 1}, [0, 0])]),
         "a hypothesis that its counterexample does not have": by_hand(
@@ -358,25 +341,22 @@ def small():
         "a lemma that fails": by_hand([], [point], [], [], [], [compared(*fails, refuted=True)]),
         "a comparison that fails": by_hand([], [point], [], [], [], [compared(*fails, role="printed")]),
         **{f"it fails: {x}": by_hand([], [point], [], [], [], [compared(*fails, role="printed", refuted=x)])
-           for x in (1, False, 0, None)},
+           for x in (1, False)},
         "(x + 1)² is not what is named": defined("z", ["+", BY_X, "x"], *SQUARED),
         "a name that is defined later": defined("z", BY_X, *SQUARED[::-1]),
         "a name that is defined twice": defined("z", BY_X, *SQUARED, ["z", BY_X]),
         "a variable that is defined": defined("x", 1, ["x", 1]),
-        "a definition without a name": defined("z", BY_X, *SQUARED, ["+", 1, 2]),
         "a definition of no name": defined("z", BY_X, *SQUARED, [7, "x"]),
         "a definition with a pole": defined("z", BY_X, *SQUARED, ["w", ["^", ["+", "x", -1], -1]]),
         "a name that is not defined": defined("z", BY_X),
         "a name about words": by_hand(
             [said("C", 1, point=0, definitions=[["C", ["*", "A", "B"]]])], [TURN], [LETTERS]
         ),
-        "which matrix is less": by_hand([], [TURN], [], [], [], [compared(["<", "A", "B"])]),
         "whether a matrix is less than a number": by_hand([], [TURN], [], [], [], [compared(["<=", "A", 1])]),
         "whether a number is less than a matrix": by_hand([], [TURN], [], [], [], [compared(["<=", 1, "A"])]),
         "a comparison on a pole": by_hand([], [point], [], [], [], [compared(["<", ["^", ["+", "x", -1], -1], 9])]),
         "a comparison of nothing": by_hand([], [point], [], [], [], [compared()]),
         "a comparison of three": by_hand([], [point], [], [], [], [compared(["<", 0, 1, 2])]),
-        "another relation": by_hand([], [point], [], [], [], [compared([">", 1, 0])]),
         "a comparison with an unknown name": by_hand([], [point], [], [], [], [compared(["=", "y", "y"])]),
         "a comparison at no point": by_hand([], [point], [], [], [], [compared(["<", 0, 1], point=1)]),
         "a hypothesis that is violated": by_hand([], [point, {"x": -1}], [], [], [assumed(["<", 0, "x"])]),
@@ -386,17 +366,12 @@ def small():
         "a hypothesis without test": by_hand(
             [], [{"x": 1}, {"y": 1}], [], [], [assumed(["<", 0, ["+", "x", "y"]])]
         ),
-        "a hypothesis without a text": by_hand([], [point], [], [], [{"relations": [["<", 0, "x"]], "text": ""}]),
         "a rule that fails": of_words("A", "A", A=[[2]], B=[[2]]),
         "no transposes": of_words("A", "A", A=[[1, 1], [0, 1]], B=[[1, -1], [0, 1]]),
         "m = 1": of_words("m", 1),
-        "1/m = m": of_words(["^", "m", -1], "m"),
         "AB = BA": of_words(["*", "A", "B"], ["*", "B", "A"]),
         "a power of four": by_hand(
             [identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0], ["^", "x", 2, 2])]
-        ),
-        "a power in quotes": by_hand(
-            [identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0], ["^", "x", "2"])]
         ),
         "a deep truth": by_hand([said(deep(100), deep(100), point=0, cofactors=[[]])], [point], [FREE]),
     }  # fmt: skip

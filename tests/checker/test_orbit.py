@@ -61,12 +61,6 @@ def test_jurys_criterion_is_that_of_the_eigenvalues(pair):
         assert attracts(*(Interval.enclosing(x, x, 40) for x in (det, chi, trace))) == inside, (a, b, c)
 
 
-@pytest.mark.parametrize("bad", [None, 3, "x", [], {}, [[]], {"u": 1}])
-def test_any_shape_is_refused_with_a_sentence(right, bad):
-    for name in ("start", "orbit", "ball", "integrals", "determinant", "unit_eigenvalue", "steps"):
-        assert refused(resealed(right | {name: bad})), name
-
-
 def test_the_derivative_is_that_of_the_equations_and_the_root_of_a_step_is_the_only_one(right):
     """Central differences of h = 2^-100: an error of h² times third derivatives, below 2^20 here."""
     search = Search(right)

@@ -7,13 +7,11 @@ from itertools import permutations
 import mpmath
 import numpy as np
 import pytest
-from budget import examples, slow
-from hypothesis import assume, given
-from hypothesis import strategies as st
+from budget import slow
 
 import chapsym
 from benchmarks.trade.reference import continuous
-from chapsym import BadInput, Ball, Curve, exact_top, increment, rotation_number, step_vertical, testing, trajectory
+from chapsym import BadInput, Ball, Curve, exact_top, increment, rotation_number, step_vertical, trajectory
 from chapsym.dynamics import kernels
 from chapsym.dynamics.closed import elliptic
 from chapsym.dynamics.closed.elliptic import height_of
@@ -82,21 +80,6 @@ def test_every_ball_has_its_curve_on_both_sides(ball):
         k2 = 1 - curve.complement**2
         assert abs(curve.modulus**2 - k2) <= 8 * ULP
     assert sides == {True, False}
-
-
-@given(testing.unit_vectors(), st.sampled_from(BALLS), st.floats(-0.5, 0.5))
-@examples(100)
-def test_point_and_argument_are_inverse(gamma, ball, part):
-    """u comes back within ulps of u, plus the 8 ulps of γ over |dγ/du|, the condition of the inverse."""
-    inertia = ball.inertia + ball.D
-    assume(np.linalg.norm(np.cross(gamma, gamma / inertia)) > 1e-3)
-    curve = Curve.through(ball, gamma)
-    assume(curve.complement > 0)
-    u = part * curve.period
-    point = curve.point(u)
-    slope = np.linalg.norm(np.cross(point, point / inertia)) / abs(curve.rate)
-    back = curve.argument(point / np.linalg.norm(point))
-    assert abs(abs(back) - abs(u)) <= 8 * ULP * (1 + curve.period + 1 / slope)
 
 
 @pytest.mark.parametrize("epsilon", [1e-2, 1e-5, 1e-7, 1e-10, 1e-13, 0.0])

@@ -14,6 +14,7 @@ import chapsym
 from chapsym.dynamics.enclosed_motion import follow
 from chapsym.dynamics.flow.start import principal, principal_exactly
 from chapsym.dynamics.levels.proved_root import TooWide
+from chapsym.generated import compose
 from chapsym.scene import load
 from chapsym.scene.members.exactly import exact_motion
 
@@ -36,19 +37,10 @@ frames = 2
 """
 
 
-def product(a, b):
-    return (
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    )
-
-
 def turned(q, v):
     """The vector v turned by the quaternion q."""
     back = (q[0], *(-x for x in q[1:]))
-    return product(product(q, (0, *v)), back)[1:]
+    return compose(*compose(*q, 0, *v), *back)[1:]
 
 
 def tensor_of(moments):
@@ -71,7 +63,7 @@ def test_it_is_the_motion_in_principal_axes_turned(tmp_path, space):
     tensor = tensor_of(moments)
     assert all(tensor[i][j] for i in range(3) for j in range(3))
     how = 'axes = "space"' if space else ""
-    one = motion(tmp_path, inertia=moments, rotor=rotor, omega=omega, attitude=product(UP, TURN), space=how)[1]
+    one = motion(tmp_path, inertia=moments, rotor=rotor, omega=omega, attitude=compose(*UP, *TURN), space=how)[1]
     other = motion(
         tmp_path, inertia=tensor, rotor=turned(TURN, rotor), omega=omega if space else turned(TURN, omega), attitude=UP,
         space=how,
@@ -85,7 +77,7 @@ def test_it_is_the_motion_in_principal_axes_turned(tmp_path, space):
                 for name in ("gamma", "angular_momentum", "omega")
                 for x, y in zip(turned(q, getattr(one, name)[i]), getattr(other, name)[i], strict=True)
             ]
-            a = product(one.attitude[i], back)
+            a = compose(*one.attitude[i], *back)
             sign = 1 if a[0] * other.attitude[i][0] > 0 else -1
             pairs += [(sign * x, y) for x, y in zip(a, other.attitude[i], strict=True)]
             pairs += list(zip(one.contact[i], other.contact[i], strict=True))

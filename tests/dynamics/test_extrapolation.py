@@ -1,4 +1,4 @@
-"""The extrapolated rotation: its weights, its order, its integrals, and what it refuses."""
+"""Long steps: their weights, their order in both precisions, what they keep, their bits, and what they refuse."""
 
 import math
 import os
@@ -15,8 +15,10 @@ import chapsym
 from benchmarks.trade.reference import continuous
 from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.attitudes import initial_attitude
+from chapsym.dynamics.levels import double_double
 from chapsym.dynamics.loops import lanes
 from chapsym.dynamics.loops.lanes import fitted, half_angle, turn_square
+from chapsym.numbers import Pair
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.3)
 #: D is 100 times the least moment of inertia.
@@ -30,12 +32,19 @@ PRECISIONS = ("double", "double-double")
 @pytest.fixture(scope="module")
 def at_two():
     """K, γ and the contact point after 2 s, by a Taylor series: nothing of the map in it."""
-    return continuous(BALL, K, GAMMA, None, [Fraction(2)], 25)[0].astype(float)
+    return continuous(BALL, K, GAMMA, None, [Fraction(2)], 32)[0]
 
 
-def error(reference, *args, **kwargs):
-    end = chapsym.extrapolate(BALL, K, GAMMA, *args, contact=True, **kwargs)
-    return np.abs(np.r_[end.angular_momentum, end.gamma, end.contact] - reference).max()
+def exactly(found, name):
+    """The numbers of a result as Fractions."""
+    halves = [found] if found.low is None else [found, found.low]
+    return sum(np.vectorize(Fraction, otypes=[object])(getattr(half, name)) for half in halves)
+
+
+def error(reference, time_step, steps, precision="double", **options):
+    end = chapsym.extrapolate(BALL, K, GAMMA, time_step, steps, contact=True, precision=precision, **options)
+    parts = [exactly(end, name) for name in ("angular_momentum", "gamma", "contact")]
+    return float(abs(np.concatenate(parts) - reference).max())
 
 
 @pytest.mark.parametrize("columns", range(1, 7))
@@ -46,12 +55,29 @@ def test_weights_satisfy_the_order_conditions_exactly(columns):
     assert moments[columns] != 0
 
 
-@pytest.mark.parametrize(("columns", "steps"), [(2, 4), (3, 2), (4, 1)])
-def test_the_order_is_twice_the_columns(at_two, columns, steps):
-    coarse = error(at_two, 2 / steps, steps, columns=columns)
-    fine = error(at_two, 1 / steps, 2 * steps, columns=columns)
-    assert fine > 1e-12  # above the rounding, so that the ratio means something
-    assert np.log2(coarse / fine) == pytest.approx(2 * columns, abs=0.75)
+def test_the_weights_in_pairs_are_those_of_the_columns_to_the_last_bit():
+    whole, less = extrapolation.weights(12, 3), (*extrapolation.weights(11, 3), Fraction(0))
+    for row, w, v in zip(extrapolation.weights_of_pairs(12), whole, less, strict=True):
+        assert Pair(*row[:2]) == Pair.of(w)
+        assert Pair(*row[2:]) == Pair.of(w - v)
+
+
+@pytest.mark.parametrize(
+    ("precision", "columns", "steps", "rounding", "apart"),
+    [("double", columns, steps, 1e-12, 0.75) for columns, steps in ((2, 4), (3, 2), (4, 1))]
+    + [("double-double", columns, steps, 1e-27, 1.5) for columns, steps in ((2, 8), (4, 4), (6, 4), (8, 4))],
+)
+def test_the_order_is_twice_the_columns(at_two, precision, columns, steps, rounding, apart):
+    coarse, fine = (error(at_two, Fraction(2, n), n, precision, columns=columns) for n in (steps, 2 * steps))
+    assert fine > rounding  # so that the ratio means something
+    assert np.log2(coarse / fine) == pytest.approx(2 * columns, abs=apart)
+
+
+def test_pairs_have_all_their_digits_and_the_doubt_is_the_error_of_a_column_less(at_two):
+    assert error(at_two, Fraction(1, 4), 8, "double-double") < 1e-26
+    fewer = error(at_two, 0.5, 4, "double-double", columns=7)
+    doubt = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 4, columns=8, precision="double-double").doubt
+    assert fewer / 10 < doubt < 10 * fewer
 
 
 @pytest.mark.usefixtures("way")
@@ -107,6 +133,16 @@ def test_the_integrals_and_the_momentum_in_space_are_kept_at_a_low_order_too():
     right = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400)
     assert np.abs(k - right.angular_momentum).max() > 1e6 * budget  # kept although the state is off
     assert right.attitude is None
+
+
+def test_in_pairs_the_integrals_do_not_walk():
+    kept = []
+    for steps in (0, 400):
+        end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, steps, columns=2, precision="double-double")
+        k, g = exactly(end, "angular_momentum"), exactly(end, "gamma")
+        kept.append(np.array([k @ g, k @ k, g @ g]))
+    # Two rotations of some dozen roundings each, at the beginning and at the end, and no more for 400 steps.
+    assert abs(kept[0] - kept[1]).max() < 64 * 2.0**-104
 
 
 @pytest.mark.parametrize(
@@ -197,6 +233,16 @@ def test_a_batch_of_many_has_the_same_bits_on_any_number_of_cores(monkeypatch):
         np.testing.assert_array_equal(a, b)
 
 
+def test_in_pairs_a_ball_has_the_same_bits_in_a_batch_and_in_parts(monkeypatch):
+    momenta, options = np.array([K, 0.3 * K, -K]), {"contact": True, "precision": "double-double"}
+    batch = chapsym.extrapolate(BALL, momenta, GAMMA, 0.4, 5, threads=2, **options)
+    monkeypatch.setattr(double_double, "CHUNK", 300)  # two long steps
+    for i in range(3):
+        alone = chapsym.extrapolate(BALL, momenta[i], GAMMA, 0.4, 5, **options)
+        for a, b in zip(everything(alone), everything(batch), strict=True):
+            np.testing.assert_array_equal(a, b[i])
+
+
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_every_state_is_that_of_a_run_which_ends_there(precision):
     given, options = (BALL, K, (-0.768, 0.576, -0.28), 0.4), {"contact": True, "precision": precision}
@@ -279,6 +325,23 @@ def test_units_do_not_matter(precision, mass, time):
         assert (found.angular_momentum * (time / mass) == one.angular_momentum).all()
         assert (found.gamma == one.gamma).all()
         assert (found.contact == one.contact).all()
+
+
+@pytest.mark.usefixtures("way")
+def test_in_pairs_what_is_beyond_the_range_is_a_fold_or_stays():
+    """A momentum times a time may be beyond float64, where `ldexp` of plain Python raises OverflowError."""
+    options = {"steps": 1, "columns": 2, "precision": "double-double"}
+    for size, step in ((1e200, 1e300), (1e300, 1e-200)):
+        with pytest.raises(chapsym.StepNotTaken):
+            chapsym.extrapolate(BALL, size * K, GAMMA, step, **options)
+    assert chapsym.extrapolate(BALL, 1e-300 * K, GAMMA, 1e-5, **options).status == chapsym.Status.TAKEN
+
+
+def test_in_pairs_a_step_may_be_longer_than_one_of_the_map():
+    """Columns from n = 1 on would have no rotation where those from 3 on have."""
+    assert chapsym.extrapolate(BALL, K, GAMMA, 2.0, 1, precision="double-double").status == chapsym.Status.TAKEN
+    with pytest.raises(chapsym.StepNotTaken):
+        chapsym.trajectory(BALL, 2.0 * K, GAMMA, 1, precision="double-double")
 
 
 @pytest.mark.usefixtures("way")

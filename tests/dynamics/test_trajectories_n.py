@@ -1,8 +1,14 @@
-"""Trajectories in n dimensions: integrals, the way back, attitude and contact, order, and what they refuse."""
+"""Trajectories in n dimensions: integrals, the way back, attitude and contact, stages, and what they refuse.
+
+The coefficients of the stages are those of three dimensions, whose order is measured: test_composition.py.
+"""
+
+import threading
 
 import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, batch, invariant_scales
+from crowds import NAMES
 
 from chapsym import (
     BadInput,
@@ -17,7 +23,8 @@ from chapsym import (
     substeps,
     trajectory_n,
 )
-from chapsym.dynamics.n import so_n
+from chapsym.dynamics.n import run_n, so_n
+from chapsym.dynamics.n.near_n import limits
 
 
 @pytest.mark.parametrize("size", [0.05, 0.3])
@@ -62,9 +69,42 @@ def test_the_body_turns_and_rolls_with_the_steps(n):
     stride = ball.radius[:, None, None] / 2 * (space - space.mT)[..., -1]
     assert np.abs(np.diff(r, axis=1) - stride).max() <= 64 * UNIT_ROUNDOFF
     assert np.abs(stride).max() > 0.01
-    steps = step_n(ball, run.momentum[:, 7], run.gamma[:, 7])
-    assert np.abs(R[:, 8] - R[:, 7] @ steps.rotation).max() <= 8 * UNIT_ROUNDOFF
-    assert np.abs(run.momentum[:, 8] - steps.momentum).max() <= 8 * UNIT_ROUNDOFF * np.abs(run.momentum).max()
+
+
+@pytest.mark.parametrize("order", [4, 6, 8])
+@pytest.mark.parametrize("n", SIZES)
+def test_a_step_is_its_stages(n, order):
+    """Each turns 𝒦 and γ by the rotation that `step_n` finds from cᵢ𝒦; both round it by some ulps."""
+    ball, K, gamma = batch(n, 4, 0.2)
+    run = trajectory_n(ball, K, gamma, 1, order=order, attitude=True)
+    momentum, vertical, attitude = K, gamma, run.attitude[:, 0]
+    for c in substeps(order):
+        rotation = step_n(ball, c * momentum, vertical).rotation
+        momentum, vertical = rotation.mT @ momentum @ rotation, (rotation.mT @ vertical[..., None])[..., 0]
+        momentum, attitude = (momentum - momentum.mT) / 2, attitude @ rotation
+    allowed = 8 * UNIT_ROUNDOFF * len(substeps(order))
+    assert np.abs(run.momentum[:, 1] - momentum).max() <= allowed * np.abs(K).max()
+    assert np.abs(run.gamma[:, 1] - vertical).max() <= allowed
+    assert np.abs(run.attitude[:, 1] - attitude).max() <= allowed
+
+
+def test_each_stage_has_the_bound_of_its_own_momentum():
+    ball, K, _ = batch(4, 1, 3.0, seed=4)
+    stages = substeps(8)
+    near, enough = limits(K, ball.mass_tensor, ball.D, stages)
+    for i, c in enumerate(stages):
+        one = limits(c * K, ball.mass_tensor, ball.D, np.ones(1))
+        assert (near[0, i], enough[0, i]) == (one[0][0, 0], one[1][0, 0])
+    assert len(set(near[0])) > 1
+
+
+def test_threads_share_a_batch_and_its_bits_stay(monkeypatch):
+    ball, K, gamma = batch(4, 6, 0.2)
+    seen, honest = set(), run_n.advance
+    monkeypatch.setattr(run_n, "advance", lambda *a: seen.add(threading.get_ident()) or honest(*a))
+    runs = [trajectory_n(ball, K, gamma, 700, order=4, every=50, contact=True, threads=threads) for threads in (1, 3)]
+    assert len(seen) > 1
+    assert all((getattr(runs[0], name) == getattr(runs[1], name)).all() for name in NAMES)
 
 
 @pytest.mark.parametrize("n", SIZES)

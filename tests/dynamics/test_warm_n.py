@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from balls_n import UNIT_ROUNDOFF, batch
 from budget import slow
+from crowds import NAMES, same
 from extremes_n import FOUR, truth_n
 from plain import in_plain_python
 
@@ -14,14 +15,9 @@ from chapsym.dynamics.n.near_n import limits
 from research.extremes.judging import BUDGET
 from research.extremes.truth import State
 
-NAMES = ("momentum", "gamma", "attitude", "contact")
 ONE = np.ones(1)
 #: With so small a factor some corrections of the first ball are small enough, and some not.
 STUBBORN = {3: 1.6e-17, 4: 3e-17, 5: 3e-17, 8: 6e-17}
-
-
-def same(one, other):
-    return all(np.array_equal(getattr(one, name), getattr(other, name), equal_nan=True) for name in NAMES)
 
 
 def alone(ball, i):
