@@ -10,7 +10,7 @@ from chapsym import BadInput, Ball, Status
 from chapsym.dynamics import kernels, native
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.levels import double, double_double
-from chapsym.dynamics.loops import block, gibbs, loop
+from chapsym.dynamics.loops import block, loop
 from chapsym.dynamics.loops.guess import stage_weights
 
 PRECISIONS = ["single", "double", "double-double"]
@@ -106,37 +106,6 @@ def block_of(n):
     native.loop(block.march_blocks)(*of, 0, 20, *rest)
     assert not ends[3].any()
     return of, rest
-
-
-def guesses_of(n):
-    """The same block, its rotations with the guesses of the next step, and whether they have settled."""
-    (S, _, weights, _, _, past), _ = block_of(n)
-    P, ok = np.zeros((block.P_ROWS, block.LANES)), np.zeros(block.LANES, np.int32)
-    at = 20 % weights.shape[1]
-    block.guessed(P, past, at, weights.shape[1], weights[1, at], ok)
-    return S, P, ok
-
-
-def test_further_rounds_are_those_of_the_search():
-    """Lane by lane and to the bit, also for a guess outside the ball of the lemma and for one that is far off."""
-    S, P, ok = guesses_of(block.LANES)
-    P[block.A :, 0] = 3.0  # outside: from no rotation
-    P[block.A :, 1] *= -0.9
-    S[loop.RADIUS, 2], S[loop.ENOUGH, 2] = -1.0, 1.0  # a ball so slow that its squares underflow: never
-    settled, rounds = [], 0
-    while len(settled) < block.LANES - 1:
-        block.corrected(S, P, ok, rounds > 0)
-        rounds += 1
-        now = np.flatnonzero(ok)
-        assert set(settled) <= set(now)
-        settled = now.tolist()
-        assert rounds <= gibbs.MOST_ROUNDS
-    assert rounds >= 3
-    assert 2 not in settled
-    for i in settled:
-        s = S[:, i].tolist()
-        found = gibbs.search(P[block.A :, i].tolist(), s[:3], s[3:6], s[loop.I : loop.D], *s[loop.D :])
-        assert found == (True, tuple(P[:4, i]), tuple(P[4:7, i]))
 
 
 def test_a_block_of_long_steps_mends_no_lane(monkeypatch):

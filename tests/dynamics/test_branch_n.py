@@ -1,15 +1,16 @@
-"""The branch in n dimensions: where it goes, where it folds, and Newton's iteration at its edges."""
+"""The branch in n dimensions: where it goes, where it folds, and the bound below which a near rotation is on it."""
 
 import warnings
 
 import numpy as np
 import pytest
-from balls_n import UNIT_ROUNDOFF, offset, proven_branch
+from balls_n import SIZES, UNIT_ROUNDOFF, offset, proven_branch
 from budget import slow
 
 import chapsym
 from chapsym import Ball, BallN, Status, skew, step_n
-from chapsym.dynamics.n import so_n
+from chapsym.dynamics.loops import loop_n
+from chapsym.dynamics.n import near_n, so_n
 from chapsym.dynamics.n.branch_n import _solved, corrected, small_rotation
 
 
@@ -86,3 +87,120 @@ def test_a_bifurcation_ends_the_branch_as_a_fold_does():
         found.append(caught.value.reach)
     assert found[0] == pytest.approx(16 / 17, rel=1e-7)
     assert found[1] == pytest.approx(16 / 17, rel=1e-7)
+
+
+# -- the bound: each inequality of it
+
+
+ONE = np.ones(1)
+
+
+def turned_planes(angles, n):
+    """The rotation by these angles in the planes (0, 1), (2, 3), …"""
+    M = np.eye(n)
+    for i, angle in enumerate(angles):
+        M[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return M
+
+
+def rotations(rng, n, largest, balls):
+    """Random rotations whose largest angle is `largest`."""
+    bases = np.linalg.qr(rng.normal(size=(balls, n, n)))[0]
+    angles = largest * np.sign(rng.normal(size=(balls, n // 2))) * rng.uniform(0, 1, (balls, n // 2)) ** 0.3
+    angles[:, 0] = largest
+    return np.stack([basis @ turned_planes(a, n) @ basis.T for basis, a in zip(bases, angles, strict=True)])
+
+
+def bodies(rng, n, balls):
+    """(J, D, γ, s): one moment of some vanishes, some are without contact, some heavy."""
+    J, D, gamma = rng.uniform(0.05, 1, (balls, n)), rng.uniform(0, 2, balls), rng.normal(size=(balls, n))
+    J[::3, 0], D[::4], D[1::4] = 0, 0, 30
+    gamma /= np.linalg.norm(gamma, axis=-1, keepdims=True)
+    return J, D, gamma, np.sort(J, axis=-1)[:, :2].sum(axis=-1)
+
+
+@pytest.mark.parametrize("n", SIZES)
+def test_the_form_of_the_slope_is_at_least_lambda(n):
+    rng = np.random.default_rng([1, n])
+    J, D, gamma, s = bodies(rng, n, 300)
+    for angle in (0.1, 0.7, 1.3, 1.55):
+        T = so_n.jacobian(rotations(rng, n, angle, len(D)) - np.eye(n), gamma, J, D)
+        lowest = np.linalg.eigvalsh((T + T.mT) / 2)[:, 0]
+        assert (lowest >= near_n.least(np.full(len(D), angle), s, D) - 64 * UNIT_ROUNDOFF * (2 + D)).all()
+
+
+@pytest.mark.parametrize("D", [0.0, 1.0, 50.0])
+def test_in_four_dimensions_lambda_is_attained(D):
+    """By equal moments and equal angles in the plane of γ and in that normal to it: so no larger λ would be right."""
+    for angle in (0.3, 1.0, 1.5):
+        T = so_n.jacobian(turned_planes((angle, angle), 4) - np.eye(4), np.eye(4)[0], np.ones(4), np.float64(D))
+        lowest = np.linalg.eigvalsh((T + T.T) / 2)[0]
+        expected = near_n.least(np.array(angle), np.array(2.0), np.array(D))
+        assert abs(lowest - expected) <= 64 * UNIT_ROUNDOFF * (2 + D)
+        assert D < 10 or angle < 1 or expected < 0  # far from the identity the form has no sign for a heavy ball
+
+
+@pytest.mark.parametrize("n", SIZES)
+def test_the_momentum_of_a_rotation_has_the_least_size_that_is_said(n):
+    rng = np.random.default_rng([2, n])
+    J, D, gamma, s = bodies(rng, n, 300)
+    for angle in (0.05, 0.8, 1.5, 2.5):
+        E = rotations(rng, n, angle, len(D)) - np.eye(n)
+        size = np.linalg.norm(so_n.coordinates(so_n.momentum(E, gamma, J, D)), axis=-1)
+        half = np.full(len(D), angle / 2)
+        assert (size >= 2 * np.sin(half) * near_n.least(half, s, D) - 64 * UNIT_ROUNDOFF * (2 + D)).all()
+
+
+@pytest.mark.parametrize("n", SIZES)
+def test_just_below_the_bound_the_rotation_is_the_proven_one_and_is_near(n):
+    rng = np.random.default_rng([3, n])
+    J, D, gamma, _ = bodies(rng, n, 6 if n < 8 else 2)
+    D = np.minimum(D, 0.5)
+    for j, d, g in zip(J, D, gamma, strict=True):
+        way = so_n.from_coordinates(rng.normal(size=n * (n - 1) // 2), n)
+        scale = 2.0 ** -np.frexp(2 * j.max() + d)[1]
+        below, above = 1e-6, 1e3  # the size of the momentum at the bound
+        for _ in range(60):
+            size = np.sqrt(below * above)
+            K = way * size / np.linalg.norm(so_n.coordinates(way))
+            known = near_n.bounds(scale * size * np.ones((1, 1)), scale * j[None], scale * d[None])[0][0, 0] > 0
+            below, above = (size, above) if known else (below, size)
+        K = way * 0.999 * below / np.linalg.norm(so_n.coordinates(way))
+        ((near,),), _ = near_n.limits(K[None], j[None], d[None], ONE)
+        E = offset((K, g, j, d))
+        assert 0 < (E * E).sum() <= near
+        assert np.abs(E - proven_branch(K, g, j, d)).max() < 1e-11
+
+
+def test_beyond_the_bound_and_out_of_range_nothing_is_known():
+    K, J = so_n.from_coordinates(np.full((1, 6), 0.1), 4), np.array([[1.0, 2.0, 0.5, 3.0]])
+    known = [
+        (K, J, 3.0), (1e-30 * K, J, 3.0), (1e-200 * K, 1e-200 * J, 3e-200), (1e200 * K, 1e200 * J, 3e200),
+    ]  # fmt: skip
+    unknown = [
+        (30 * K, J, 3.0), (0 * K, J, 3.0), (1e-300 * K, J, 3.0), (K, J, 1e6), (1e-290 * K, 1e-290 * J, 3e-290),
+        (1e290 * K, 1e290 * J, 3e290), (K, J * [[1e-12, 1e-12, 1, 1]], 3.0), (1e300 * K, 1e-8 * J, 0.0),
+    ]  # fmt: skip
+    for states, sign in ((known, 1), (unknown, -1)):
+        for k, j, d in states:
+            assert np.sign(near_n.limits(k, j, np.array([d]), ONE)[0]).tolist() == [[sign]], (k, j, d)
+
+
+@pytest.mark.parametrize(("D", "inside", "outside"), [(0.0, 0.98, 0.99), (2.0, 0.86, 0.88), (10.0, 0.64, 0.66)])
+def test_the_bound_is_where_the_page_says(D, inside, outside):
+    J, K = np.array([[0.75, 2.0, 0.25, 3.0]]), so_n.from_coordinates(np.eye(6)[:1], 4)
+    for size, sign in ((inside, 1), (outside, -1)):
+        assert np.sign(near_n.limits(size * K, J, np.array([D]), ONE)[0]) == sign
+
+
+def test_another_rotation_with_the_momentum_is_not_taken():
+    """For equal moments and D = 0 those by θ and by 180° - θ in a plane have one momentum; Newton stays where it is."""
+    J, D, gamma, n = np.full(4, 0.25), np.zeros(1), np.eye(4)[3], 4
+    small, large = (turned_planes((angle,), n) - np.eye(n) for angle in (0.3, np.pi - 0.3))
+    K = so_n.momentum(small, gamma, J, D[0])
+    near, enough = (x[0] for x in near_n.limits(K[None], J[None], D, ONE))
+    for E, right in ((small, True), (large, False)):
+        work = [np.empty(shape) for shape in ((n, n), (n, n), (6, 6), 6, n, n)]
+        found = E.copy()
+        assert loop_n.settle(K, gamma, J, 0.0, near[0], enough[0], found, *work) == right
+        assert np.abs(found - E).max() < 1e-15

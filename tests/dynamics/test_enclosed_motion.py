@@ -98,23 +98,6 @@ def test_a_steady_rotation_is_the_closed_form():
         assert all(x.contains(0) for x in found.contact[0])
 
 
-def test_more_digits_agree_with_less():
-    few, many = (follow(started(*ORDINARY), [F(1)], digits) for digits in (10, 80))
-    assert many.bits > few.bits
-    for x, y in zip(few.omega[0], many.omega[0], strict=True):
-        assert x.overlaps(y)
-        assert y.rad() < arb("1e-79")
-
-
-def test_frames_within_a_step_agree_with_those_at_its_end():
-    dense = follow(started(*ORDINARY), [F(i, 20) for i in range(21)], 15)
-    assert dense.steps < 10
-    for i in (3, 10, 20):
-        alone = follow(started(*ORDINARY), [F(i, 20)], 15)
-        for name in (*VECTORS, "attitude"):
-            assert all(x.overlaps(y) for x, y in zip(getattr(dense, name)[i], getattr(alone, name)[0], strict=True))
-
-
 def test_numbers_that_python_does_not_write_are_shown_by_their_type():
     """It refuses whole numbers of more than 4300 digits."""
     assert repr(ExactBall((1, 2, 4), F(1, 10**5000))) == (

@@ -77,11 +77,8 @@ def test_no_rotation_exceeds_the_largest_momentum(q, ball, gamma):
     [
         ({"momentum": (1, 2)}, "momentum must have 3 components"),
         ({"momentum": (1, np.nan, 0)}, r"momentum must be finite, but it is nan at index \(1,\)"),
-        ({"momentum": (np.ma.masked, 1, 2)}, "momentum must be real numbers"),
-        ({"momentum": np.array([1, 2, 3], dtype="M8[s]")}, "momentum must be real numbers"),
         ({"momentum": (True, False, None)}, "momentum must be real numbers"),
         ({"ball": (1, 2, 4)}, "ball must be a chapsym.Ball, not tuple"),
-        ({"gamma": (1e300, 1e300, 0)}, "gamma must be a unit vector"),
         ({"gamma": (0, 0, 0)}, "gamma must be a unit vector, but its length is 0; it is the vertical"),
         ({"momentum": np.zeros((2, 3)), "gamma": np.tile(GAMMA, (3, 1))}, "do not broadcast"),
     ],

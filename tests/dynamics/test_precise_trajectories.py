@@ -55,19 +55,28 @@ def contains(balls, exact, digits):
     return True
 
 
-@pytest.mark.parametrize("digits", [15, 100, *slow(30, 50, 130, 400)])
 @pytest.mark.parametrize("size", [0.05, 0.4])
-def test_digits_are_the_oracles_step_by_step(digits, size):
-    steps = 12 if digits < 400 else 3
-    run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, steps, contact=True, precision=Digits(digits))
-    exact = orbit(BALL, size * DIRECTION, GAMMA, steps, digits=digits + 5, attitude=LEAST)
-    mp = context(digits + 20)
-    assert off(run.momentum, [list(e[0]) for e in exact]) < mp.mpf(10) ** -digits
-    assert off(run.gamma, [list(e[1]) for e in exact]) < mp.mpf(10) ** -digits
-    for k, (_, _, R, r) in enumerate(exact):
-        assert off(from_quaternion(mp, run.attitude[k]), R) < 4 * mp.mpf(10) ** -digits
-        trace = [x / 2 for x in r[:2]]
-        assert max(abs(x - y) for x, y in zip(run.contact[k], trace, strict=True)) < mp.mpf(10) ** -digits
+def test_digits_are_the_oracles_step_by_step_and_balls_contain_it_and_are_small(size, thorough):
+    steps, bits = 12, 200
+    exact = orbit(BALL, size * DIRECTION, GAMMA, steps, digits=130, attitude=LEAST)
+    for digits in (15, 30, 50, 100, 120) if thorough else (15, 100):
+        run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, steps, contact=True, precision=Digits(digits))
+        mp = context(digits + 20)
+        assert off(run.momentum, [list(e[0]) for e in exact]) < mp.mpf(10) ** -digits
+        assert off(run.gamma, [list(e[1]) for e in exact]) < mp.mpf(10) ** -digits
+        for k, (_, _, R, r) in enumerate(exact):
+            assert off(from_quaternion(mp, run.attitude[k]), R) < 4 * mp.mpf(10) ** -digits
+            trace = [x / 2 for x in r[:2]]
+            assert max(abs(x - y) for x, y in zip(run.contact[k], trace, strict=True)) < mp.mpf(10) ** -digits
+    run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, steps, contact=True, precision=Enclosure(bits))
+    for k, (K, g, R, r) in enumerate(exact):
+        assert contains([*run.momentum[k], *run.gamma[k]], [*K, *g], 70)
+        assert contains(run.contact[k], [x / 2 for x in r[:2]], 70)
+        with flint.ctx.workprec(300):
+            matrix = generated.rotation(*run.attitude[k])
+        assert contains(matrix, [x for row in R for x in row], 70)
+        for array in (run.momentum[k], run.gamma[k], run.attitude[k]):
+            assert max(x.rad() for x in array) <= max(abs(x).mid() for x in array) * flint.arb(2) ** (2 - bits)
 
 
 @pytest.mark.parametrize("order", [2, 4, 6, 8])
@@ -85,21 +94,6 @@ def test_orders_are_compositions_with_the_exact_coefficients(order):
         other = orbit(BALL, 0.2 * DIRECTION, GAMMA, steps, rough, digits=50)
         assert off(run.gamma, [list(e[1]) for e in other]) > 1e-20
         assert not contains(balls.gamma[steps], list(other[steps][1]), 48)
-
-
-@pytest.mark.parametrize("size", [0.4, *slow(0.05)])
-def test_balls_contain_the_oracle_step_by_step_and_are_small(size):
-    steps, bits = 12, 200
-    run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, steps, contact=True, precision=Enclosure(bits))
-    exact = orbit(BALL, size * DIRECTION, GAMMA, steps, digits=80, attitude=LEAST)
-    for k, (K, g, R, r) in enumerate(exact):
-        assert contains([*run.momentum[k], *run.gamma[k]], [*K, *g], 70)
-        assert contains(run.contact[k], [x / 2 for x in r[:2]], 70)
-        with flint.ctx.workprec(300):
-            matrix = generated.rotation(*run.attitude[k])
-        assert contains(matrix, [x for row in R for x in row], 70)
-        for array in (run.momentum[k], run.gamma[k], run.attitude[k]):
-            assert max(x.rad() for x in array) <= max(abs(x).mid() for x in array) * flint.arb(2) ** (2 - bits)
 
 
 @given(testing.states(fraction=(0.05, 0.95)))
