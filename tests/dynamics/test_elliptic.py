@@ -70,6 +70,7 @@ def test_every_ball_has_its_curve_on_both_sides(ball):
         curve = Curve.through(ball, gamma)
         sides.add(bool(curve.level * np.sort(inertia)[1] > 1))
         u = curve.argument(gamma)
+        assert abs(u) <= curve.period / 2
         assert np.abs(curve.point(u) - gamma).max() <= 8 * ULP
         points = curve.point(np.linspace(-0.5, 0.5, 50) * curve.period)
         assert np.abs((points**2).sum(axis=-1) - 1).max() <= 16 * ULP

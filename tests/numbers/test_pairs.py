@@ -185,9 +185,9 @@ def test_halves_may_be_arrays():
 @given(numbers, numbers)
 def test_each_operation_is_right(x, y):
     a, b = of(x), of(y)
-    exact = {"+": x + y, "-": x - y, "*": x * y, "/": x / y, "neg": -x, "2": 2 * x, "half": x / 2}
-    found = {"+": a + b, "-": a - b, "*": a * b, "/": a / b, "neg": -a, "2": 2 * a, "half": a / 2}
+    exact = {"+": x + y, "-": x - y, "*": x * y, "/": x / y, "neg": -x, "2": 2 * x, "half": x / 2, "1 -": 1 - x}
+    found = {"+": a + b, "-": a - b, "*": a * b, "/": a / b, "neg": -a, "2": 2 * a, "half": a / 2, "1 -": 1 - a}
     for name, value in exact.items():
-        size = max(abs(x), abs(y), abs(x * y), abs(x / y))
+        size = max(abs(x), abs(y), abs(x * y), abs(x / y), 1 if name == "1 -" else 0)
         assert abs(F(found[name].high) + F(found[name].low) - value) <= 40 * U2 * size
     assert square_root(a * a).high == pytest.approx(abs(float(x)), rel=1e-15)
