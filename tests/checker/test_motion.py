@@ -165,15 +165,6 @@ def ends(data, time=1):
     return found["attitude"]
 
 
-def test_what_the_series_leaves_out_is_enclosed(right, monkeypatch):
-    """Few terms against many; and with the bound of the defect taken away they are not the same."""
-    fine, coarse = right | {"bits": 128, "order": 60}, right | {"bits": 128, "order": 14}
-    true = ends(fine)
-    assert all(x.lo <= y.lo and y.hi <= x.hi for x, y in zip(ends(coarse), true, strict=True))
-    monkeypatch.setattr(rolling.Flow, "defect", lambda self, *rest: Fraction(0))
-    assert not all(x.lo <= y.hi and y.lo <= x.hi for x, y in zip(ends(coarse), true, strict=True))
-
-
 @pytest.mark.parametrize(("name", "time"), [("attitude", "1/1000"), ("momentum", "1"), *slow(("attitude", "1"))])
 def test_all_starts_within_the_radii_are_enclosed(right, name, time):
     """Each number of the start as far off as it may be; soon after, when little else is."""

@@ -1,18 +1,14 @@
-"""What the enclosure of a motion rests on: the equations, polynomials in balls, and the lemma of the deviation."""
+"""What the enclosure of a motion rests on: polynomials in balls, and the lemma of the deviation."""
 
 import random
 from fractions import Fraction as F
 
 import numpy as np
 import pytest
-import sympy as sp
 from flint import arb, arb_poly, ctx
 from motion_truth import Truth, matrix_of, number
 
 from chapsym import generated
-from chapsym.derive import continuous, three
-from chapsym.derive.gyrostat import rotor
-from chapsym.derive.limits import RING, omega
 from chapsym.dynamics.flow import deviation, series
 from chapsym.dynamics.flow import path as paths
 from chapsym.dynamics.flow.path import Path
@@ -22,9 +18,6 @@ from chapsym.dynamics.levels.start import fraction
 BITS = 120
 J, D = (1, 2, 4), 3
 ATTITUDE, K = (1, 2, -1, 3), (3, 1, 4)
-XI = sp.Matrix(sp.symbols("x1:4"))
-
-
 NONE_INSIDE, ROTOR = (0, 0, 0), (-2, 5, 3)
 
 
@@ -32,36 +25,6 @@ def begun(attitude=ATTITUDE, radius=None, rotor=NONE_INSIDE):
     with ctx.workprec(BITS):
         given = (tuple(map(arb, x)) for x in (K, attitude))
         return Path(BITS, tuple(map(arb, J)), arb(D), *given, radius, tuple(map(arb, rotor)))
-
-
-def test_what_is_fixed_in_space_turns_as_the_equations_say():
-    """(2.3): with a' = ½ a∘ω each row of the rotation of a has x' = x × ω, for quaternions of any length."""
-    a = sp.Matrix([three.q0, *three.q])
-    rate = three.quaternion_product(a, sp.Matrix([0, *omega])) / 2
-    R = sp.Matrix(three.rotation())
-    turned = R.applyfunc(lambda x: sum(sp.diff(x, y) * z for y, z in zip(a, rate, strict=True)))
-    for i in range(3):
-        assert (turned[i, :].T - R[i, :].T.cross(omega)).applyfunc(sp.expand).is_zero_matrix
-
-
-@pytest.mark.parametrize("sign", [1, -1])
-def test_the_linear_equation_is_the_derivative_of_the_motion(sign):
-    """B(d - 2ξ × ω) is 2Cξ, d what ω changes by where K = Bω + a and γ gain 2K × ξ and 2γ × ξ; on |γ| = 1."""
-
-    def carried(w, g):
-        return sp.Matrix(continuous.momentum()).subs(
-            dict(zip([*omega, *three.gamma], [*w, *g], strict=True)), simultaneous=True
-        )
-
-    s = sp.Symbol("s")
-    moved = sp.diff(carried(omega, three.gamma + 2 * s * three.gamma.cross(XI)), s).subs(s, 0)
-    change = 2 * (carried(omega, three.gamma) + rotor).cross(XI) - moved  # B d, as B(γ)ω + a = K
-    left = change - 2 * carried(omega.cross(XI), three.gamma)
-    right = sign * 2 * sp.Matrix(deviation.Body(three.MASSES, three.D, rotor).bent(omega, XI))
-    assert all(RING_XI.is_zero(sp.expand(x)) for x in left - right) == (sign == 1)
-
-
-RING_XI = type(RING)((*omega, *three.gamma, *XI, *rotor, *three.MASSES, three.D), [three.UNIT_VERTICAL])
 
 
 def test_a_polynomial_that_is_cut_contains_the_whole():

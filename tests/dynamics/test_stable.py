@@ -123,11 +123,16 @@ def test_the_curve_has_its_modulus_at_every_D(D):
             assert abs(float(MP.mpf(found) / value - 1)) <= 8 * ULP
 
 
+def level_of(J, D, g):
+    """Λ and l, on the direction of g."""
+    L, norm = [sum(J) - x + D for x in J], sum(x * x for x in g)
+    return L, sum(x * x / m for x, m in zip(g, L, strict=True)) / norm
+
+
 def invariants_of(curve, J, D, g):
     """k, k', |V| and 1 - Dl from their definitions (5.7), (5.13-V), on the direction of g."""
-    L, norm = [sum(J) - x + D for x in J], sum(x * x for x in g)
+    L, level = level_of(J, D, g)
     a, b, c = curve.axes
-    level = sum(x * x / m for x, m in zip(g, L, strict=True)) / norm
     MP.dps = 90
     lower, upper = abs(L[a] * level - 1), abs(1 - L[c] * level)
     k2 = abs(L[a] - L[b]) * upper / (abs(L[b] - L[c]) * lower)
@@ -172,9 +177,8 @@ def test_the_curve_and_its_increment_at_the_extremes(name, D):
 
 def amplitudes_of(curve, J, D, g):
     """|C_a|, |C_b|, |C_c| from their definition (5.8), on the direction of g."""
-    L, norm = [sum(J) - x + D for x in J], sum(x * x for x in g)
+    L, level = level_of(J, D, g)
     a, b, c = curve.axes
-    level = sum(x * x / m for x, m in zip(g, L, strict=True)) / norm
     lower, upper = abs(L[a] * level - 1), abs(1 - L[c] * level)
     gaps = L[a] - L[c], L[b] - L[c], L[a] - L[c]
     sizes = L[a] * upper, L[b] * upper, L[c] * lower
@@ -203,10 +207,9 @@ def test_the_height_of_an_increment_at_large_D(D):
 
 def height_in_mpmath(curve, J, D, g, half, mean):
     """2w(𝒟 - Dλ)/(V𝒟 G/V²), every quantity from its definition (5.13-V), (5.14)."""
-    L, norm = [sum(J) - x + D for x in J], sum(x * x for x in g)
+    L, level = level_of(J, D, g)
     a, b, c = curve.axes
     k, _, V, _ = invariants_of(curve, J, D, g)
-    level = sum(x * x / m for x, m in zip(g, L, strict=True)) / norm
     sn, cn, dn = (MP.ellipfun(f, half, m=k * k) for f in ("sn", "cn", "dn"))
     s, y = MP.ellipfun("sn", mean, m=k * k), sn * sn
     lower, upper = L[a] * level - 1, 1 - L[c] * level
