@@ -293,7 +293,7 @@ def test_near_unstable_rotations_the_estimate_is_above_the_error(thorough):
     All but 402 are judged in double-double alone, which the certified motion confirms in `thorough`: it takes a hundred
     times as long.
     """
-    light, heavy = (range(3000), range(300)) if thorough else ((*range(8), 402, 798), (*range(4), 20, 44, 58, 962))
+    light, heavy = (range(3000), range(300)) if thorough else ((*range(3), 402, 798), (0, 20, 44, 962))
     parts = [unstable_starts.part(seed, certify=thorough or seed == 402) for seed in light]
     parts += [unstable_starts.part(seed, heavy=True, certify=thorough) for seed in heavy]
     assert 1 / 3 < max(parts) < 1

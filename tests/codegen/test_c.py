@@ -334,16 +334,6 @@ def test_a_flipped_sign_in_a_loop_changes_the_text_and_is_told_by_the_check(copy
     assert build.ours().check(copy) == ["loops.c is changed"]
 
 
-def test_the_text_of_the_loops_has_a_hash_of_its_own():
-    files = build.ours().files
-
-    def flipped(path):
-        text = build.ours().text(files, path)
-        return text.replace("total - a", "total + a", 1) if path == "chapsym.numbers.pairs" else text
-
-    assert c_files.build(flipped, build.ours().kernels, {})["loops_text.py"] != files["loops_text.py"]
-
-
 def test_what_gains_from_wide_registers_has_its_clones():
     lines = [line for line in build.ours().files["loops.c"].splitlines() if "void in_" in line]
     clones = {line.split("(")[0].split("in_")[1]: line.split()[0] for line in lines}

@@ -23,7 +23,7 @@ def det(ball, q, gamma):
 @pytest.mark.parametrize("D", [0.0, 1e2, *slow(1.0, 1e4)])
 def test_a_fold_is_where_the_jacobian_is_singular(D, thorough):
     """To roundoff: the residual of 𝒦(q) = t𝒦 and det T, in units of Λmax; and t."""
-    ball, K, gamma = seeded(50 if thorough else 8, D)
+    ball, K, gamma = seeded(50 if thorough else 5, D)
     found = fold(ball, K, gamma)
     assert found.settled.all()
     assert np.abs(det(ball, found.rotation, gamma)).max() < 16 * 2.0**-52
@@ -31,9 +31,9 @@ def test_a_fold_is_where_the_jacobian_is_singular(D, thorough):
     gap = kernels.momentum(found.rotation, gamma, ball.mass_tensor, ball.D) - found.reach[:, np.newaxis] * K
     assert np.abs(gap / top).max() < 8 * 2.0**-52
     # A rounding of the residual, Λmax 2^-52, is this fraction of the momentum: so near are the exact counts right.
-    rounding = (64 * 2.0**-52 * top / np.linalg.norm(found.reach[:, np.newaxis] * K, axis=1, keepdims=True))[:5]
-    few, t = Ball(ball.mass_tensor[:5], ball.D[:5]), found.reach[:5, np.newaxis]
-    below, above = (branches(few, t * (1 + s * rounding) * K[:5], gamma[:5]) for s in (-1, 1))
+    rounding = (64 * 2.0**-52 * top / np.linalg.norm(found.reach[:, np.newaxis] * K, axis=1, keepdims=True))[:3]
+    few, t = Ball(ball.mass_tensor[:3], ball.D[:3]), found.reach[:3, np.newaxis]
+    below, above = (branches(few, t * (1 + s * rounding) * K[:3], gamma[:3]) for s in (-1, 1))
     assert (below.count - above.count == 2).all()
 
 

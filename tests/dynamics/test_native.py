@@ -81,7 +81,7 @@ def restored(steps, balls_=1, **options):
 
 def any_magnitudes(precision, **options):
     """Steps of balls and momenta that are as large or as small as numbers are, together and alone to the same bits."""
-    rng, n = np.random.default_rng(16), 300
+    rng, n = np.random.default_rng(16), 100
     low, high = (-30, 30) if precision == "single" else (-300, 300)
     scale = 10.0 ** rng.uniform(low, high, (n, 1))
     J, D = scale * 10.0 ** rng.uniform(-3, 3, (n, 3)), scale[:, 0] * 10.0 ** rng.uniform(-5, 5, n)

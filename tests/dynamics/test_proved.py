@@ -116,9 +116,9 @@ def test_the_bounds_of_a_run_are_the_errors_that_the_oracle_sees(order, size):
 
 
 def test_the_bounds_are_those_of_a_certificate():
-    """By Arb's balls, an enclosure of its own: 1500 steps, past restorations, of float64 and of pairs."""
+    """By Arb's balls, an enclosure of its own: 1100 steps, past a restoration, of float64 and of pairs."""
     for precision in ("double", "double-double"):
-        run = chapsym.trajectory(BALL, momentum(0.1), GAMMA, 1500, every=500, contact=True, precision=precision,
+        run = chapsym.trajectory(BALL, momentum(0.1), GAMMA, 1100, every=550, contact=True, precision=precision,
                                  proved=True)  # fmt: skip
         wanted = chapsym.certify(run)
         for name in NAMES:
