@@ -110,21 +110,6 @@ FOLDING = np.array([4.32, -2.16, 3.24])
 HEAVY = Ball((1, 2, 4), 3)
 
 
-def test_a_fold_stops_one_ball_and_a_batch_goes_on():
-    far = 1.5 * FOLDING  # the fifth step folds, in one of its stages
-    with pytest.raises(StepNotTaken) as caught:
-        chapsym.trajectory(HEAVY, far, GAMMA, 100, order=8, attitude=True)
-    error = caught.value
-    assert (error.status, error.index) == (Status.FOLDED, 4)
-    assert len(error.trajectory.momentum) == error.index + 1
-    assert error.trajectory.order == 8
-    run = chapsym.trajectory(HEAVY, [far, 0.1 * FOLDING], GAMMA, 10, order=8)
-    assert run.status.tolist() == [error.status, Status.TAKEN]
-    assert run.taken.tolist() == [error.index, 10]
-    assert np.isnan(run.momentum[0, error.index + 1 :]).all()
-    assert (run.momentum[1] == chapsym.trajectory(HEAVY, 0.1 * FOLDING, GAMMA, 10, order=8).momentum).all()
-
-
 def test_a_long_run_goes_in_chunks_and_stops_where_it_failed(monkeypatch):
     """To the bit as in one piece; a ball that failed is not asked again."""
     whole = chapsym.trajectory(BALL, 0.1 * K, GAMMA, 23, order=4, every=3, contact=True)
