@@ -1,6 +1,7 @@
 """Small certificates about numbers of solutions: those that are right, and those that are not."""
 
 import copy
+from functools import cache
 
 from certificate_changes import resealed
 from derivation_changes import in_coordinates
@@ -118,6 +119,7 @@ def dense(parts):
     ))  # fmt: skip
 
 
+@cache
 def counts():
     """Certificates by hand: those that are right, and those that are not, by name."""
     right = {

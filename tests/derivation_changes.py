@@ -1,6 +1,7 @@
 """Small certificates with a derivation: each operation at work, and each thing that it must refuse."""
 
 from fractions import Fraction
+from functools import cache
 
 from certificate_changes import resealed
 
@@ -107,6 +108,7 @@ def in_coordinates(places, cofactors=ON_CIRCLE, of="A", row=1, column=0, value="
     return made(steps, "q", value, 2, 1, [CIRCLE], cofactors=[[0]])
 
 
+@cache
 def derivations():
     """Certificates by hand: those that are right, and those that are not, by name."""
     product = [step("Z", "written", ["*", "A", "X"])]

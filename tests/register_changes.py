@@ -1,6 +1,7 @@
 """Certificates of the register that are changed: the cases of the checker's tests, and of its mutants."""
 
 import copy
+from functools import cache
 
 from certificate_changes import resealed
 
@@ -295,6 +296,7 @@ SQUARED = [["y", ["+", "x", 1]], ["z", ["*", "y", "y"]]]
 BY_X = ["+", ["^", "x", 2], ["*", 2, "x"], 1]
 
 
+@cache
 def small():
     """Certificates by hand: those that are right, and those that are not, by name."""
     identity, point = said("x", 1, point=0, cofactors=[[1]]), {"x": 1}

@@ -17,10 +17,14 @@ from chapsym.checker.__main__ import main
 FOLDER = Path(chapsym.checker.__file__).parent
 
 
+@pytest.fixture(scope="module")
+def right():
+    return maker.measure(level="0.2430009529063826355053267220620552038", digits=37)
+
+
 @pytest.fixture
-def files(tmp_path):
+def files(tmp_path, right):
     """A right certificate, a changed one, a text, and one that is not there."""
-    right = maker.measure(level="0.2430009529063826355053267220620552038", digits=37)
     (tmp_path / "right.json").write_text(json.dumps(right))
     (tmp_path / "changed.json").write_text(json.dumps(right | {"steps": 8}))
     (tmp_path / "text.json").write_text("nonsense")
@@ -56,9 +60,8 @@ def test_the_name_of_a_file_adds_no_line_and_hides_none(files, tmp_path, capsys)
     assert len(err.splitlines()) == 1
 
 
-def test_what_rests_on_others_is_accepted_only_with_them(tmp_path, capsys):
+def test_what_rests_on_others_is_accepted_only_with_them(tmp_path, right, capsys):
     """A claim by its id and its digest, and a file of another kind by its digest."""
-    right = maker.measure(level="0.2430009529063826355053267220620552038", digits=37)
     c = resting(claim="c")
     b = resting(f"c {c['digest']}", claim="b")
     files = {

@@ -147,9 +147,9 @@ def test_starts_too_far_apart_and_more_steps_than_a_reader_can_wait_for_are_refu
 
 @pytest.mark.parametrize(
     ("path", "value", "words"),
-    [(("ball", "D"), "1.1", "window"), (("ball", "J", 1), "2.01", "window"),
+    [(("ball", "D"), "1.1", "window"),
      (("ball", "J", 1), "-2", "negative"), (("ball", "D"), "0", "positive"),
-     (("start", "momentum", 0), "1.001", "window"), (("start", "gamma", 0), "3/8", "unit vector"),
+     (("start", "gamma", 0), "3/8", "unit vector"),
      (("start", "momentum", 2), "3.424540368074", "a miss"), (("symmetry",), [1, -1, -1], "section|window"),
      (("time",), "8.5", "window"), (("window",), "9", "shorter than the time"), (("window",), "1e-20", "window"),
      (("radius",), "0.000000000004", "a miss"), (("along",), "gamma1", "a miss"), (("section",), "K2", "a miss|window"),

@@ -133,7 +133,7 @@ def random_start(rng):
 
 
 @pytest.mark.parametrize("with_rotor", [False, True])
-@pytest.mark.parametrize("seed", [0, 1, 2, *slow(3, 4, 5)])
+@pytest.mark.parametrize("seed", [0, 1, *slow(2, 3, 4, 5)])
 def test_what_is_enclosed_contains_the_motion_found_by_another_way(right, seed, with_rotor):
     tensor, D, omega, quaternion = random_start(rng := random.Random(seed))
     rotor = [Fraction(rng.randrange(-300, 300), 100) * with_rotor for _ in range(3)]

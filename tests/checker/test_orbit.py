@@ -10,7 +10,7 @@ import pytest
 from certificate_changes import at, changed, committed, leaves, refused, replaced, resealed
 
 from chapsym import checker
-from chapsym.checker import Rejected, check
+from chapsym.checker import Rejected, check, orbit
 from chapsym.checker.interval import Interval
 from chapsym.checker.linear import newton
 from chapsym.checker.orbit import Search, attracts
@@ -50,6 +50,13 @@ def test_a_trace_is_proved_and_an_orbit_with_a_multiplier_outside_does_not_attra
         check(resealed(right | {"trace": text}))
     with pytest.raises(Rejected, match="trace is not proved"):
         check(resealed(right | {"trace": text[:-1] + str((int(text[-1]) + 1) % 10)}))
+
+
+def test_a_determinant_of_1_proves_nothing(right, monkeypatch):
+    monkeypatch.setattr(orbit, "determinant", lambda M: 1 + 0 * M[0][0])
+    one = f"1.{right['digits'] * '0'}"
+    with pytest.raises(Rejected, match="the determinant is not proved to differ from 1"):
+        check(resealed(right | {"determinant": one, "unit_eigenvalue": one}))
 
 
 @pytest.mark.parametrize("pair", [False, True])

@@ -226,12 +226,12 @@ def test_corrections_gain_more_bits_each_time(monkeypatch):
         return deviation.defects(*arguments)
 
     monkeypatch.setattr(paths, "defects", counted)
-    with ctx.workprec(1500):
-        path = Path(1500, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, ATTITUDE)), None)
+    with ctx.workprec(900):
+        path = Path(900, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, ATTITUDE)), None)
         start = list(path.p)
         path.advance(F(1, 4))
         assert [p(arb(0)) == x for p, x in zip(path.last.p, start, strict=True)] == [True] * 4
-        assert path.spread.size < arb(2) ** -1480
+        assert path.spread.size < arb(2) ** -880
     assert len(seen) <= 14
 
 

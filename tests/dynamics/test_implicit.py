@@ -223,17 +223,10 @@ def test_an_image_that_leaves_its_box_proves_nothing():
 @pytest.mark.filterwarnings("error")
 def test_rows_that_are_none_kernels_that_return_something_else_and_odd_numbers_are_refused():
     """Their shapes, sizes and names; and results that are too many, none, or no real numbers."""
-    for odd in (
-        (square, GROUPS, 3),
-        (square, GROUPS, ("1",)),
-        (square, (("x",), ("a", 1)), ()),
-        (square, (("x", 0),), ()),
-    ):
-        for rows in (
-            (odd, (slope, GROUPS, ())),
-            ((square, GROUPS, ()), odd),
-            ((square, GROUPS, ()), (slope, GROUPS, ()), odd),
-        ):
+    right = (square, GROUPS, ()), (slope, GROUPS, ())
+    for groups, shape in ((GROUPS, 3), (GROUPS, ("1",)), ((("x",), ("a", 1)), ()), ((("x", 0),), ())):
+        odd = square, groups, shape
+        for rows in ((odd, right[1]), (right[0], odd), (*right, odd)):
             with pytest.raises(BadInput, match="must be a row of a generated TABLE"):
                 implicit_step(*rows)
     twice = (("x", 1), ("x", 1))
@@ -249,10 +242,10 @@ def test_rows_that_are_none_kernels_that_return_something_else_and_odd_numbers_a
             for precision in ("double", Digits(20)):
                 with pytest.raises(BadInput, match="other does not return 1 real numbers"):
                     root([1.0], [2.0], precision=precision)
-        root = implicit_step((square, GROUPS, ()), (slope, GROUPS, ()), (other, GROUPS, ()))
+        root = implicit_step(*right, (other, GROUPS, ()))
         with pytest.raises(BadInput, match="other does not return 1 real numbers"):
             root([1.0], [2.0])
-    root = implicit_step((square, GROUPS, ()), (slope, GROUPS, ()))
+    root = implicit_step(*right)
     for given, precision, said in (
         (([1.0], [2.0]), "half", "precision must be"),
         (([1e300], [2.0]), "single", "x is beyond the range of float32"),

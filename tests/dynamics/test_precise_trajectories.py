@@ -97,7 +97,7 @@ def test_orders_are_compositions_with_the_exact_coefficients(order):
 
 
 @given(testing.states(fraction=(0.05, 0.95)))
-@examples(6, 25)
+@examples(4, 25)
 def test_three_steps_of_any_state_are_enclosed(state):
     """Inside the bound of the lemma and beyond it, degenerate and stiff balls."""
     ball, momentum, gamma = state
