@@ -71,13 +71,17 @@ def test_each_number_that_is_changed_is_refused_by_the_digest(right):
 
 
 def test_each_number_that_is_changed_is_refused_by_mathematics_alone(right, thorough):
-    """With the sentence and the digest made anew: all of them, where the radius is 0; or every other of a step."""
+    """With the sentence and the digest made anew: all of them, where the radius is 0; or every other of a step.
+
+    Of those of a step the last decimal.
+    """
     rng, numbers = random.Random(11), list(leaves(right))
     steps = [path for path in numbers if len(path) > 3]
     for path in [path for path in numbers if len(path) <= 3] + steps[:: 1 if thorough else 2]:
         for _ in range(1 if len(path) > 3 else 8 if thorough else 3):
-            data = resealed(replaced(right, path, changed(at(right, path), rng)))
-            assert refused(data), (path, at(data, path))
+            text = at(right, path)
+            other = changed(text, rng) if len(path) <= 3 else text[:-1] + str((int(text[-1]) + 1) % 10)
+            assert refused(resealed(replaced(right, path, other))), (path, other)
 
 
 def test_in_a_box_of_parameters_only_the_radius_can_be_changed_to_another_true_one(thorough):
