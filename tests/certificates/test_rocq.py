@@ -60,6 +60,9 @@ def test_what_is_no_such_certificate_is_said_in_a_sentence(tmp_path, kept, sente
     assert sentence in said
     assert said.count("\n") == 1
     assert not (tmp_path / "made").exists()
+
+
+def test_what_is_not_named_or_cannot_be_written_is_said_in_a_sentence(tmp_path):
     assert command(tmp_path).stderr == "CERTIFICATE... DIR: name a certificate, and the folder for its theorem\n"
     (tmp_path / "file").touch()
     said = command(FOLDER / "measure-large.json", tmp_path / "file" / "made").stderr
