@@ -173,16 +173,13 @@ def test_a_fold_that_is_near_says_how_near(reach, said):
     assert said in str(chapsym.StepNotTaken(chapsym.Status.FOLDED, reach))
 
 
-@pytest.mark.parametrize("size", ["x", 0, -1, 2.5, None])
-def test_a_size_of_unit_vectors_that_there_is_not_is_refused(size):
-    with pytest.raises(BadInput, match="size must be a whole number from 1 on, not "):
-        find(testing.unit_vectors(size), lambda drawn: True)
-
-
-@pytest.mark.parametrize(
-    ("strategy", "strata"),
-    [(testing.rotations, ("generic", "x")), (testing.balls, []), (testing.mass_tensors, 3), (testing.balls, "generic")],
-)
-def test_a_stratum_that_there_is_not_is_refused(strategy, strata):
-    with pytest.raises(BadInput, match="strata must be some of generic, "):
-        find(strategy(strata), lambda drawn: True)
+def test_a_size_or_a_stratum_that_there_is_not_is_refused():
+    for size in ("x", 0, -1, 2.5, None):
+        with pytest.raises(BadInput, match="size must be a whole number from 1 on, not "):
+            find(testing.unit_vectors(size), lambda drawn: True)
+    for strategy, strata in (
+        (testing.rotations, ("generic", "x")), (testing.balls, []), (testing.mass_tensors, 3),
+        (testing.balls, "generic"),
+    ):  # fmt: skip
+        with pytest.raises(BadInput, match="strata must be some of generic, "):
+            find(strategy(strata), lambda drawn: True)
