@@ -173,8 +173,6 @@ def counts():
         "a chart with a short row": other(cubic, chart=[[1, 0], [1]]),
         "a chart with a name": other(cubic, chart=[[1, 0], [0, "x"]]),
         "a chart that is not regular": counted([plus(square("x"), square("w"))], are(1, 1, 2, 2), chart=[[0, 1]] * 2),
-        "another chart": other(line, chart=[["1/2", 0, 0], [0, 1, 0], [0, 1, 2]]),
-        "a combination too few": other(touch, combinations=BY_TOUCH[:1]),
         "a combination of fewer equations": other(touch, combinations=[*BY_TOUCH[:2], [1]]),
         "a combination in the unknowns": other(cubic, combinations=[["x"]]),
         "a root that is moved": other(cubic, combinations=[[less("y1", times(2, "y0"))]]),

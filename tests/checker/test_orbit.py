@@ -34,7 +34,7 @@ def test_numbers_that_are_changed_are_refused_by_mathematics_alone(right, thorou
     """Half a second each: some of the Gibbs vectors and, but for `make thorough`, of what stands once."""
     rng = random.Random(23)
     paths = [path for path in leaves(right) if path[0] != "orbit"]
-    some = paths if thorough else rng.sample(paths, 4)
+    some = paths if thorough else rng.sample(paths, 3)
     for path in [*some, *rng.sample([p for p in leaves(right) if p[0] == "orbit"], 1)]:
         data = resealed(replaced(right, path, changed(at(right, path), rng)))
         assert refused(data), (path, at(data, path))

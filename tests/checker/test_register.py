@@ -64,7 +64,11 @@ def test_changes_of_one_number_sign_operation_or_name_are_rejected(samples, thor
         assert refused(data), (data["claim"], path)
 
 
-@pytest.mark.parametrize("name", CHANGES)
+#: Of each table one takes as long as all others.
+LARGE, LONG = "a product with too many terms", "a long chain"
+
+
+@pytest.mark.parametrize("name", [*(name for name in CHANGES if name != LARGE), *slow(LARGE)])
 def test_what_is_false_or_out_of_form_is_rejected_in_one_sentence(samples, name):
     id, change = CHANGES[name]
     data = changed(samples[id], change)
@@ -88,10 +92,6 @@ def test_small_certificates_that_are_right(name):
     check(SMALL[name])
 
 
-#: Of which one takes as long as all others.
-LONG = "a long chain"
-
-
 @pytest.mark.parametrize("name", [*(name for name in SMALL_AND_WRONG if name != LONG), *slow(LONG)])
 def test_small_certificates_that_are_wrong(name):
     assert refused(SMALL_AND_WRONG[name])
@@ -108,13 +108,12 @@ def test_the_id_of_another_claim_is_another_statement(samples):
 
 def test_a_change_of_anything_is_seen_by_the_digest(samples):
     rng = random.Random(5)
-    for id, data in samples.items():
+    for data in samples.values():
         path = rng.choice(list(leaves(data)))
         other = copy.deepcopy(data)
         inside(other, path[:-1])[path[-1]] = "another text"
         with pytest.raises(Rejected):
             check(other)
-        assert check(data).kind == "register-claim", id
 
 
 def test_a_pipe_is_not_waited_for(tmp_path):
@@ -148,10 +147,12 @@ def test_what_was_judged_is_shown_and_one_change_is_seen(samples):
 
 
 def test_the_derivation_of_a_claim_is_shown(capsys):
-    assert main(["--show", str(FOLDER / "prop-1.json")]) == 0
-    lines = capsys.readouterr().out.splitlines()
+    lines = [*shown.lines(read(FOLDER / "prop-1.json"))]
     rolling = "[(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes; in algebra 0]"
-    assert f"  rolling = dr + rho·dR·R^T·gamma    {rolling}" in lines
+    assert f"rolling = dr + rho·dR·R^T·gamma    {rolling}" in lines
     dual = "[it vanishes when the variation does for every skew ξ; in algebra 1]"
-    assert f"  balance_c = dual of work by xi    {dual}" in lines
-    assert "      before = -Omega^T·momentum·Omega" in lines
+    assert f"balance_c = dual of work by xi    {dual}" in lines
+    assert "    before = -Omega^T·momentum·Omega" in lines
+    assert main(["--show", str(FOLDER / "2.5.json")]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert {f"  {line}" for line in shown.lines(read(FOLDER / "2.5.json"))} < {*printed}

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from balls_n import batch
+from budget import slow
 
 import chapsym
 from chapsym import Ball, BallN, Digits, Enclosure, reverse_n, skew, step_n, trajectory_n
@@ -13,7 +14,7 @@ def distance(a, b):
     return float(np.abs(a - b).max())
 
 
-@pytest.fixture(params=[3, 4, 5])
+@pytest.fixture(params=[3, *slow(4), 5])
 def state(request):
     """A ball, 𝒦 and γ of a rotation by some tenths."""
     ball, K, gamma = batch(request.param, 1, 0.2)

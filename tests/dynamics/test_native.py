@@ -128,7 +128,8 @@ PAIRS = {"double_double_prepare_pairs", "double_double_march_pairs"}
 PAIRS_BLOCK = {"double_double_prepare_pairs_block", "double_double_march_pairs_block"}
 CASES = [
     *((lambda m=m, o=o: each(m, 24, **o), ALONE) for m in (balls, long_steps, beyond)
-      for o in ({}, BODY, {"precision": "single"}, BODY | {"precision": "single"})),
+      for o in (BODY, BODY | {"precision": "single"})),
+    *((lambda o=o: each(balls, 24, **o), ALONE) for o in ({}, {"precision": "single"})),
     *((lambda p=p, o=o: each(balls, 4, order=o, precision=p, **BODY), ALONE)
       for p in ("double", "single") for o in (4, 6, 8)),
     (lambda: each(balls, 4, precision="double-double"), PAIRS),

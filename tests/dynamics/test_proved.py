@@ -192,7 +192,7 @@ SETS = {
 
 
 @pytest.mark.parametrize("kind", SETS)
-@pytest.mark.parametrize("size", [0.05, 0.3, 0.55])
+@pytest.mark.parametrize("size", [0.3, 0.55, *slow(0.05)])
 def test_a_set_after_a_step_contains_what_its_corners_become(size, kind, thorough):
     """By steps of 45 digits from states that are turned by ξ; and one of edges is hardly larger."""
     mp, rng, (bounds, ball, away, D) = context(50), np.random.default_rng(2), SETS[kind]

@@ -28,7 +28,7 @@ def unit(rng):
     return v / np.sqrt(v @ v)
 
 
-def states(D, count=12):
+def states(D, count=6):
     """Balls with momenta of the size of J in any direction: well conditioned, however large D is."""
     rng = np.random.default_rng([5, int(np.log10(D))])
     return [(rng.uniform(0.3, 2.0, 3), unit(rng) * rng.uniform(0.02, 0.2), unit(rng)) for _ in range(count)]
