@@ -47,7 +47,7 @@ def test_the_committed_certificates_are_what_is_found(name, capsys):
     first, second = displacements(found)
     assert first * second < 0
     assert Fraction(found["radius"]) > 0
-    certify._deliver(None, False, lambda **known: found)
+    certify._deliver(None, False, 600.0, lambda **known: found)
     assert capsys.readouterr().out.startswith(f"Proved: {found['statement']}\n  displacements: ")
     assert found["digest"] == checker.digest(found)
 
