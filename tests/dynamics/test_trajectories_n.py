@@ -115,14 +115,16 @@ def test_threads_share_a_batch_and_its_bits_stay(monkeypatch):
 )
 def test_the_first_attitude_makes_gamma_vertical(n, tilt, last):
     """Almost upside down 1 + γₙ is 0 or has no digits, but γ has them."""
-    gamma = np.zeros(n)
-    gamma[0], gamma[-1] = tilt, last
+    gamma, across = np.zeros((2, n))
+    gamma[:2], across[:2] = (0.6 * tilt, 0.8 * tilt), (-0.8, 0.6)
+    gamma[-1] = last
     R = trajectory_n(BallN(np.ones(n), 1), np.zeros((n, n)), gamma, 0, attitude=True).attitude[0]
     assert np.abs(R @ R.T - np.eye(n)).max() <= 16 * UNIT_ROUNDOFF
     assert np.linalg.det(R) == pytest.approx(1)
     assert np.abs(R @ gamma - np.eye(n)[-1]).max() <= 16 * UNIT_ROUNDOFF
     if last > -1:  # the least rotation leaves alone what is normal to both
-        assert (R[1:-1, 1:-1] == np.eye(n)[1:-1, 1:-1]).all()
+        assert np.abs(R @ across - across).max() <= 16 * UNIT_ROUNDOFF
+        assert (R[2:-1, 2:-1] == np.eye(n)[2:-1, 2:-1]).all()
 
 
 def test_a_given_attitude_is_followed():
