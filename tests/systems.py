@@ -5,7 +5,7 @@ from pathlib import Path
 
 import sympy as sp
 
-from chapsym.mechanics import METHODS, Runner, dot, loaded
+from chapsym.mechanics import METHODS, Runner, System, dot, loaded
 
 SYSTEMS = Path(__file__).parents[1] / "docs/examples/systems"
 #: The methods that take any system.
@@ -20,6 +20,12 @@ FREE = (vx**2 + vy**2 + vz**2) / 2
 def example(name):
     """A system of the documentation, by the name of its file."""
     return loaded(SYSTEMS / f"{name}.py")
+
+
+def particle(**changes):
+    """The nonholonomic particle with other settings."""
+    settings = {"lagrangian": FREE, "constraints": [vz - y * vx], "start": {y: "3/10", vx: 1, vy: "1/2"}}
+    return System("particle", (x, y, z), **settings | changes)
 
 
 @cache

@@ -147,32 +147,6 @@ def test_help_shows_an_example_of_each_command():
     assert not [kind for kind in kinds if re.search("<[a-z]", chapsym("certify", kind, "-h").stdout)]
 
 
-def test_prove_some():
-    found = answer("prove", "4.1", "4.3", "--jobs", "1")
-    assert [c["id"] for c in found["claims"]] == ["4.1", "4.3"]
-    assert [c["verdict"] for c in found["claims"]] == ["corrected", "holds"]
-    assert set(found["claims"][0]) == {"id", "verdict", "printed", "corrected", "evidence", "seconds"}
-    done = chapsym("prove", "4.3", "--explain")
-    assert "verdict: HOLDS" in done.stdout
-    assert "4.3" in chapsym("prove", "--list").stdout
-
-
-#: A flipped sign in the rolling constraint of the principle.
-FLIPPED = (
-    "import chapsym.derive.principle as principle",
-    "honest = principle.rolling_constraint",
-    "principle.rolling_constraint = lambda v, r: 2 * v - honest(v, r)",
-)
-
-
-def test_a_claim_that_is_not_proved_exits_1(tmp_path):
-    """A flipped sign in derive: (4.2) cannot be proved, and the command says which claim and why."""
-    done = child("prove", "4.2", "4.14", "--jobs", "1", env=changed(tmp_path, *FLIPPED))
-    assert done.returncode == 1
-    assert done.stderr == "chapsym: not proved: 4.2\n"
-    assert "1 holds, 1 open" in done.stdout
-
-
 def test_a_derivation_that_cannot_be_loaded_is_one_sentence(tmp_path):
     env = changed(
         tmp_path, "import chapsym.derive.principle as principle", "def broken(): raise KeyError('R_+')",
@@ -409,13 +383,6 @@ def test_a_terminal_without_greek_gets_escapes():
     done = child("scene", "schema", env={**os.environ, "PYTHONIOENCODING": "ascii"})
     assert (done.returncode, done.stderr) == (0, "")
     assert not json.dumps(json.loads(done.stdout), ensure_ascii=False).isascii()
-
-
-def test_check_passes_in_its_budget():
-    found = answer("check", "--states", "2", "--steps", "5000")
-    assert found["kept"] is True
-    assert len(found["strata"]) == 9
-    assert all(row["kept"] for row in found["strata"])
 
 
 def test_an_unforeseen_end_of_a_file_is_no_interruption(monkeypatch):

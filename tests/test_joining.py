@@ -1,7 +1,6 @@
 """What a contributor reads is true: its files and commands are there; hooks, issue forms, the paper, a release."""
 
 import importlib.util
-import json
 import re
 import subprocess
 from pathlib import Path
@@ -40,17 +39,6 @@ def test_the_paper_has_its_sections_and_its_references():
     assert cited <= set(re.findall(r"^@\w+\{(\w+),$", references, re.MULTILINE))
     for figure in re.findall(r"\]\(([^)]*)\)", text):
         assert (ROOT / figure).is_file()
-
-
-@pytest.mark.parametrize(("name", "sentences"), [
-    ("paper.md", ("each of {claims} claims", "{errata} are not true as printed")),
-    ("CHANGELOG.md", ("Verdicts on {claims} claims", "{errata} are not true as printed")),
-])  # fmt: skip
-def test_claims_and_errata_are_counted(name, sentences):
-    data = json.loads((ROOT / "docs" / "errata.json").read_text(encoding="utf-8"))
-    text = " ".join((ROOT / name).read_text(encoding="utf-8").split())
-    for sentence in sentences:
-        assert sentence.format(claims=data["claims"], errata=len(data["errata"])) in text
 
 
 # A release

@@ -16,20 +16,29 @@ import chapsym
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-VERDICTS = (ROOT / "docs/explanation/verdicts.md").read_text(encoding="utf-8")
+VERDICTS = "docs/explanation/verdicts.md"
+#: What a page says of the numbers of verdicts.
+COUNTED = [
+    ("README.md", "{wrong} of its {claims} statements are not true as printed"),
+    (VERDICTS, "Every one of the {claims} statements"),
+    (VERDICTS, "{wrong} are not true as printed: {corrected} are `corrected`"),
+    (VERDICTS, "and {conditional} are `conditional`"),
+    (VERDICTS, "{asked} are open in the paper: {settled} are settled here, {open} left open"),
+    ("paper.md", "each of {claims} claims"),
+    ("paper.md", "{wrong} are not true as printed"),
+    ("CHANGELOG.md", "Verdicts on {claims} claims"),
+    ("CHANGELOG.md", "{wrong} are not true as printed"),
+]
 
 
 def test_the_pages_count_and_call_wrong_what_is_on_record(records):
     wrong = [id for id, record in records.items() if record["evidence"]["counterexamples"]]
     count = Counter(record["verdict"] for record in records.values())
-    left_open, settled = count["open"], count["settled"]
-    assert f"{len(wrong)} of its {len(records)} statements are not true as printed" in README
-    assert f"Every one of the {len(records)} statements" in VERDICTS
-    words = " ".join(VERDICTS.split())
-    assert f"{len(wrong)} are not true as printed: {count['corrected']} are `corrected`" in words
-    assert f"and {count['conditional']} are `conditional`" in words
-    assert f"{left_open + settled} are open in the paper: {settled} are settled here, {left_open} left open" in words
-    rows = re.findall(r"^\| ([^|]+) \| [^|]+ \| [^|]+ \|$", VERDICTS.partition("What matters most")[2], re.MULTILINE)
+    count.update(wrong=len(wrong), claims=len(records), asked=count["open"] + count["settled"], open=0)
+    for name, said in COUNTED:
+        assert said.format(**count) in " ".join((ROOT / name).read_text(encoding="utf-8").split()), (name, said)
+    matters = (ROOT / VERDICTS).read_text(encoding="utf-8").partition("What matters most")[2]
+    rows = re.findall(r"^\| ([^|]+) \| [^|]+ \| [^|]+ \|$", matters, re.MULTILINE)
     named = [id for row in rows for id in row.strip().split(", ") if id in records]
     assert len(named) >= 9
     assert set(named) <= set(wrong)

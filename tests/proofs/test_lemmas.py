@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import pytest
 import sympy as sp
+from budget import slow
 
 from chapsym.derive import ball, composition, continuous, elliptic, gibbs, gyrostat, modified, steady, three
 from chapsym.proofs import LEMMAS
@@ -60,7 +61,7 @@ SLIPS = {
     "twice D": (continuous, ["angular_velocity"], doubled, ["stable-inverse", "isotropic-spin"]),
     "the residual": (
         gibbs, ["residual", "jacobian"], flipped,
-        ["steady", "steady-branch", "steady-axis", "steady-roll", "measure-iff", "separatrix-map"],
+        ["steady-branch", "steady", "steady-axis", "steady-roll", "measure-iff", "separatrix-map"],
     ),
     "the value of V": (
         elliptic, ["increment_parts"], lambda right: [right[0], 2 * right[1], *right[2:]], ["separatrix-map"],
@@ -97,7 +98,9 @@ def test_a_slip_in_a_derivation_is_seen(monkeypatch, slip, thorough):
 
 
 @pytest.mark.usefixtures("uncertified")
-@pytest.mark.parametrize(("wanted", "place", "digit"), [(4, 0, 39), (4, 2, 38), (6, 1, 38), (8, 0, 30), (8, 8, 38)])
+@pytest.mark.parametrize(
+    ("wanted", "place", "digit"), [(4, 2, 38), (8, 8, 38), *slow((4, 0, 39), (6, 1, 38), (8, 0, 30))]
+)
 def test_a_wrong_digit_is_seen(wanted, place, digit, monkeypatch):
     one = order.COMPOSITIONS[wanted]
     half = [*one.half]

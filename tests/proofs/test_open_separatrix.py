@@ -1,7 +1,9 @@
-"""The level l = 1/Λ₂ in numbers: the map by (4.13), what orbits gain between their ends, and levels beside it."""
+"""The level l = 1/Λ₂ in numbers: the map by (4.13), what orbits gain between their ends, and levels beside it.
+
+Those of thorough runs are of the formulas alone, and of nothing that chapsym computes.
+"""
 
 import pytest
-from budget import slow
 from mpmath import mp, mpf
 
 from chapsym.dynamics.oracle import Oracle
@@ -113,6 +115,7 @@ def test_the_second_order_is_that_of_the_map():
         assert abs(ratios[1] - 1) < 5e-4
 
 
+@pytest.mark.thorough
 def test_where_the_difference_vanishes_the_misfit_is_not_constant():
     with mp.workdps(80):
         ball = Arc((9, 6, 5), "2.395317441298880761091913125132232844408", "4.5")
@@ -120,13 +123,15 @@ def test_where_the_difference_vanishes_the_misfit_is_not_constant():
         assert mp.almosteq(ball.misfit(ball.c / 4) - ball.misfit(mpf(0)), mpf("4.06745e-54"), 1e-5)
 
 
-@pytest.mark.parametrize("before", ["2.3953174412", *slow("4.6932514664", "8.0197522858")])
+@pytest.mark.thorough
+@pytest.mark.parametrize("before", ["2.3953174412", "4.6932514664", "8.0197522858"])
 def test_the_difference_changes_its_sign_three_times(before):
     with mp.workdps(80):
         here, there = (Arc((9, 6, 5), D, "4.5").swing() for D in (mpf(before), mpf(before) + mpf(10) ** -10))
         assert here * there < 0
 
 
+@pytest.mark.thorough
 def test_beside_the_arc_many_steps_displace_by_the_misfit():
     """On the level with 2K - 300c = Δ(0), u = 0 is displaced by half a turn; c/2 by more, as Δ(c/2) is more."""
     with mp.workdps(75):  # k'² is 1e-29

@@ -69,6 +69,7 @@ def test_a_steady_circle_does_not_keep_the_volume(J, axis):
         assert abs(wanted - 1) > mpf(10) ** -7
 
 
+@pytest.mark.thorough  # of the formulas alone
 def test_three_equal_moments_keep_it_and_so_does_the_third_axis_of_two():
     with mp.workdps(30):
         anywhere = np.array([mpf(1), mpf(2), mpf(-1) / 2, mpf(2) / 7, mpf(3) / 7, mpf(6) / 7])

@@ -137,13 +137,6 @@ def test_an_answer_is_made_from_what_is_stated_and_says_what_carries_it():
     assert f"  settled {words['text']}" in lines
 
 
-def test_without_the_prose_it_is_not_settled():
-    record = record_of(lambda p: settles(p, prose=False))
-    assert record["verdict"] == "open"
-    assert "no sentence carries «there is no root»" in record["evidence"]["problems"]
-    assert record["evidence"]["settled"] is None
-
-
 def test_what_no_sentence_carries_is_machine_checked():
     def decides(p):
         """Title."""

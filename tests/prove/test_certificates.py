@@ -21,9 +21,8 @@ from chapsym.prove import Comparison, Equation, Examples, Fact, Proof, Verdict, 
 from chapsym.prove.certificates import certificate
 from chapsym.prove.cofactors import Ideal
 from chapsym.prove.points import candidates
-from chapsym.prove.polynomials import Identity, parameters
 from chapsym.prove.runner import explain, judge
-from chapsym.prove.trees import NotAlgebra, factored, shared, tree
+from chapsym.prove.trees import NotAlgebra, tree
 
 FOLDER = Path(proofs.__file__).parent / "certificates" / "register"
 x, y, z = sp.symbols("x y z")
@@ -137,16 +136,6 @@ def proof(*statements, point=None):
     return made
 
 
-def test_a_statement_is_data_with_cofactors_and_a_point():
-    data = certificate("0", "x", proof(Equation("one", x**4 - y**4, 2 * x**2 - 1, CIRCLE)))
-    [one] = data["statements"]
-    assert one["cofactors"] == [[["+", -1, ["*", -1, ["^", "y", 2]], ["^", "x", 2]]]]  # (x² - y² - 1)(x² + y² - 1)
-    assert data["algebras"] == [
-        {"kind": "quotient", "variables": ["x", "y"], "relations": [["+", -1, ["^", "x", 2], ["^", "y", 2]]]}
-    ]
-    assert data["sentences"] == []
-
-
 def test_what_is_false_stands_with_its_counterexample_and_what_is_no_equation_is_a_sentence():
     wrong = Equation("wrong", x, y, CIRCLE)
     data = certificate("0", "x", proof(wrong, Fact("seven", True), point=rational_point({x: "3/5", y: "4/5"})))
@@ -240,36 +229,6 @@ def test_a_claim_whose_certificate_is_not_accepted_is_open(monkeypatch):
 def test_what_is_no_quotient_of_polynomials_has_no_tree(expr):
     with pytest.raises(NotAlgebra):
         tree(expr)
-
-
-def test_a_polynomial_is_short_in_factors_and_means_the_same():
-    names, ring = ("x", "y", "z"), sp.ring("x y z", sp.QQ)[0]
-    for expr in ((x + y) ** 3 * (x - z) / 2, x**2 * y - 7, x * y + x * z + 1, sp.S.One, sp.S.Zero, -x):
-        found = factored(dict(ring.from_expr(sp.expand(expr))), names)
-        value = checker.register.value(found, dict(zip(names, (x, y, z), strict=True)), lambda n: sp.Rational(str(n)))
-        assert sp.expand(value - expr) == 0
-        assert len(json.dumps(found)) < 80
-
-
-def test_what_was_made_of_parameters_is_a_tree_with_names_for_what_occurs_often_or_of_factors_in_lowest_terms():
-    a, b = parameters("a b")
-    whole = a + b
-    both = 2 / whole + 0 * a
-    assert shared([both * both, both**-1 - 1 * b, whole + a, 0 * a, 3]) == (
-        [["_1", ["+", "a", "b"]], ["_2", ["*", ["^", "_1", -1], 2]]],
-        [["*", "_2", "_2"], ["+", ["^", "_2", -1], ["*", "b", -1]], ["+", "_1", "a"], 0, 3],
-    )
-    data = certificate("0", "x", proof(Identity("square", [whole * whole], [a**2 + 2 * a * b + b**2])))
-    assert [(s["text"], s["cofactors"]) for s in data["statements"]] == [("square", [[]])]
-    assert data["statements"][0]["definitions"] == [["_1", ["+", "a", "b"]]]
-    assert data["sentences"] == []
-    made = (a**2 - b**2) / (2 * a * (a + b) ** 3)
-    assert (made.made[0], made.lowest().made, made.lowest() == made) == ("*", None, True)
-    lowest = ["*", "1/2", ["+", ["*", -1, "b"], "a"], ["^", ["+", "b", "a"], -2], ["^", "a", -1]]
-    assert shared([made.lowest()]) == ([], [lowest])
-    one = made.lowest()
-    assert [name for name, _ in shared([one * one])[0]] == ["_1"]
-    assert shared([(a - a + 1).lowest(), (a - a).lowest()])[1] == [1, 0]
 
 
 def test_cofactors_make_a_polynomial_of_the_ideal_and_there_are_none_for_another():

@@ -46,15 +46,6 @@ def proof(*statements):
     return made
 
 
-def test_a_count_is_data_with_its_numbers_at_a_point():
-    data = certificate("0", "x", proof(count([x**2 - a * w**2], REAL > 1, point={a: "9/4"}, nonzero=[x])))
-    [one] = data["counts"]
-    assert data["points"][one["point"]] == {"a": "9/4"}
-    assert one["equations"] == [["+", ["^", "x", 2], ["*", -1, "a", ["^", "w", 2]]]]
-    assert (one["relations"], one["nonzero"], one["holds"]) == ([["<", 1, "real"]], ["x"], True)
-    assert (one["unknowns"], one["chart"], one["combinations"]) == (["w", "x"], [[1, 0], [0, 1]], [[1]])
-
-
 def test_a_printed_count_that_is_false_is_its_own_counterexample():
     made = proof(count([x**2 + a * w**2], REAL >= 2, point={a: 1}, text="the number of real x/w"))
     data = certificate("0", "x", made)

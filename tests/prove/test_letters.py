@@ -18,7 +18,7 @@ def test_renaming_every_letter_changes_no_verdict(request, records, lemmas):
     seed = 35
     chosen = [*CLAIMS, *LEMMAS]
     if not request.config.getoption("--thorough"):
-        chosen = random.Random(seed).sample(chosen, 3)
+        chosen = random.Random(seed).sample(chosen, 2)
     command = [sys.executable, Path(__file__).with_name("renamed.py"), str(seed), *chosen]
     answer = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
     known = {**records, **lemmas}

@@ -63,6 +63,7 @@ if __name__ == "__main__":
 def folder(tmp_path, monkeypatch, forgotten):
     """A folder with two scripts, and what they share."""
     monkeypatch.setenv("CHAPSYM_RECORDS", str(tmp_path / "verdicts.jsonl"))
+    monkeypatch.setattr("os.cpu_count", lambda: 1)  # processes of their own would load all proofs first
     monkeypatch.chdir(tmp_path)
     folder = tmp_path / "claims"
     folder.mkdir()

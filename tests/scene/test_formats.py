@@ -256,29 +256,6 @@ def test_the_old_files_of_one_ball_are_still_read(name):
         assert found.attrs["scene"] == whole.attrs["scene"]
 
 
-@pytest.mark.parametrize("suffix", [".csv", ".npz", *slow(".nc", ".parquet")])
-def test_a_component_has_one_number_whatever_else_is_kept(tmp_path, suffix):
-    """momentum_1 is 𝒦₁, with energy and without."""
-    first = load(OLD / "scene.toml")
-    for outputs in (["momentum"], ["momentum", "energy"]):
-        formats.save(sweep.run_in_memory(plan_of(first.with_run(outputs=outputs))), tmp_path / f"run{suffix}")
-        found = formats.load(tmp_path / f"run{suffix}")
-        assert found.momentum.sel(axis="1").values[0, 0] == 0.5
-        if suffix == ".csv":
-            table = pandas.read_csv(tmp_path / "run.csv")
-            assert [name for name in table.columns if name.startswith("momentum")] == [f"momentum_{i}" for i in "123"]
-            assert table.momentum_1[0] == 0.5
-
-
-def test_a_npz_of_one_ball_is_plain_arrays_of_frames(tmp_path):
-    data = sweep.run_in_memory(plan_of(load(OLD / "scene.toml")))
-    formats.save(data, tmp_path / "run.npz")
-    with np.load(tmp_path / "run.npz", allow_pickle=False) as found:
-        assert found["momentum"].shape == (5, 3)
-        assert found["time"].tolist() == data.time.values.tolist()
-        assert found["radius"] == 0.5
-
-
 @pytest.mark.parametrize("suffix", [".csv", ".zarr", *slow(None, ".nc", ".parquet", ".npz")])
 def test_a_frame_is_found_by_its_time_in_memory_and_from_every_format(tmp_path, suffix):
     """And what was chosen by time can be saved."""

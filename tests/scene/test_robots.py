@@ -123,12 +123,68 @@ def test_an_attribute_that_is_not_read_is_named(put, text, said):
     assert said in str(caught.value)
 
 
+INSIDE = '<collision><origin xyz="0 0.05 0"/><geometry><sphere radius="{}"/></geometry></collision></link>'
+#: A geom alone is a ball, too.
+GEOM = '<mujoco><worldbody><body><geom type="sphere" size="0.1"/></body></worldbody></mujoco>'
+FREE = '<body><joint type="free" {}/>'
+DEFAULT = f'<default><joint armature="2"/></default><worldbody>{FREE.format("")}'
+
+
+def held(joint, parent):
+    """Another link, and what joins it to the ball."""
+    joint = f"<joint name='j' type='{joint}'><parent link='{parent}'/><child link='ball'/></joint>"
+    return f"<link name='arm'/>{joint}</robot>"
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "said"),
+    [
+        (GEOM, "<geom", '<geom class="ball"', "line 1: <geom>: its class 'ball' has no <default>"),
+        (GEOM, "</body>", '<frame><geom type="box" size="1 1 1"/></frame></body>', "line 1: <frame> is not read"),
+        (GEOM, "</body>", '<geom type="box" size="1 1 1"/></body>', "line 1: <geom>: a ball that rolls touches with i"),
+        (GEOM, "</body>", '<geom type="mesh" contype="0" conaffinity="0"/></body>', "has 2 geoms and no <inertial>"),
+        (GEOM, "<body>", '<body name="arm"><freejoint/></body><body><joint/>', "<joint> without a name holds the bal"),
+        (GEOM, "<worldbody>", '<include file="a.xml"/><worldbody>', "line 1: <include> is not read"),
+        (GEOM, "<body>", '<body><joint name="h"/>', "line 1: <joint> h holds the ball"),
+        (GEOM, '"0.1"', '"0.1" shellinertia="yes"', "<geom>: shellinertia must be false or true, not 'yes'"),
+        (GEOM, "</body>", '<body name="rotor"/></body>', "line 1: <body> rotor holds the ball"),
+        (GEOM, "<body>", FREE.format('armature="0.1"'), "line 1: <joint>: armature = '0.1' is added to the inertia of"),
+        (GEOM, "<worldbody><body>", DEFAULT, "line 1: <joint>: armature = '2' is added to the inertia of the ball"),
+        (GEOM, "<body>", 8 * '<body><geom size="0.1"/></body>' + "<body>", 8 * "without a name, " + "…"),
+        (SDF, "</link>", "<collision><geometry><box/></geometry></collision></link>", "and this is another shape: tak"),
+        (URDF, "</link></robot>", "\n" + INSIDE.format("0.056") + "</robot>", "line 10: <collision>: a ball that roll"),
+        (URDF, "<mass ", "<xacro:mass xmlns:xacro='x' ", "line 5: <xacro:mass> is to be filled in: give the file that"),
+        (URDF, 'xyz="0 0 0"', 'xyz="0 0.001 0"', "line 3: the centre of mass of <inertial> is 1 mm off the centre of"),
+        (URDF, '<mass value="1.9"/>', "", "line 3: <inertial> has no mass"),
+        (URDF, 'ixz="-2e-4"', "", "line 6: <inertia> has no ixz"),
+        (URDF, '"0.0046"', '"${ixx}"', "line 6: <inertia>: '${ixx}' is to be filled in: give the file that xacro"),
+        (URDF, "</robot>", held("revolute", "floor"), "line 9: <joint> j of floor and ball holds the ball, but chapsy"),
+        (URDF, "</robot>", held("fixed", "arm").replace("/>", "><inertial/></link>", 1), "<joint> j of arm and ball h"),
+        (URDF, "<robot ", "<!DOCTYPE r [<!ENTITY a 'b'>]><robot ", "line 2: a DOCTYPE is not read"),
+        (URDF, "</robot>", "", "line 9: this is not XML: no element found"),
+        (URDF, '<sphere radius="0.105"/>', "<box/>", ": the ball is the <link> with a sphere to roll on, and this"),
+        (URDF, "</robot>", f"<link name='b'>{INSIDE.format(0.1)}</robot>", "this file has 2 with one (ball, b)"),
+        (URDF, "</inertial>", '\n<mass value="2"/></inertial>', "line 8: <inertial> has two <mass>, the first on line"),
+        (URDF, "<inertia ", "<inertia/><inertia ", "line 6: <inertial> has two <inertia>"),
+        (URDF, "<collision>", "<inertial/><collision>", "line 8: <link> has two <inertial>, the first on line 3"),
+        (URDF, "<origin", "<origin/><origin", "line 4: <inertial> has two <origin>"),
+        (URDF, "<sphere", '<sphere radius="1"/><sphere', "line 8: <geometry> has two <sphere>"),
+        (URDF, "robot", "html", "line 2: <html> is not <robot> (URDF), <sdf> or <mujoco> (MJCF)"),
+    ],
+)
+def test_what_is_no_ball_is_refused_with_its_line(put, text, old, new, said):
+    """Three balls of one link, and a cube on eight, were read as the first of them."""
+    suffix = {GEOM: ".xml", SDF: ".sdf"}.get(text, ".urdf")
+    assert table(put(text, suffix))["radius"]
+    with pytest.raises(SceneError) as caught:
+        table(put(text.replace(old, new), suffix))
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
 def test_mujoco_makes_the_inertia_of_the_geom_where_its_compiler_says_so(put):
     text = mjcf("", 'inertiafromgeom="true"').replace('size="0.105"', 'size="0.105" mass="0.5"')
     assert table(put(text, ".xml")) == {"name": "ball", "preset": "homogeneous", "mass": "0.5", "radius": "0.105"}
-
-
-GEOM = '<mujoco><worldbody><body><geom type="sphere" size="0.1"/></body></worldbody></mujoco>'
 
 
 @pytest.mark.parametrize(
@@ -146,16 +202,6 @@ def test_a_geom_alone_is_homogeneous_or_hollow_as_mujoco_makes_it(put, said, mas
     found = table(put(GEOM.replace('"0.1"', f'"0.1" {said}'), ".xml"))
     assert abs(float(found.pop("mass")) - mass) < 1e-15
     assert found == {"preset": preset, "radius": "0.1"}
-
-
-@pytest.mark.parametrize(
-    ("default", "joint"), [("", 'armature="0.1"'), ('<default><joint armature="0.1"/></default>', "")]
-)
-def test_inertia_that_a_joint_adds_is_not_left_out(put, default, joint):
-    text = GEOM.replace("<worldbody><body>", f'{default}<worldbody><body><joint type="free" {joint}/>')
-    with pytest.raises(SceneError, match=r"<joint>: armature = '0.1' is added to the inertia of the ball"):
-        table(put(text, ".xml"))
-    assert table(put(text.replace('armature="0.1"', 'armature="0"'), ".xml"))["radius"] == "0.1"
 
 
 #: What is at the head of a world of MJCF, and at that of a model of SDF.
@@ -219,10 +265,15 @@ def test_the_command_says_what_is_left_out(put, tmp_path):
         (MODEL, FLOOR.replace("<pose>0 0 0 0.1 0 0", "<pose relative_to='f'>0 0 0 0.1 0 0").format("", "")),
         (MODEL, FLOOR.replace("<pose>0 0 0 0.1 0 0", "<pose>").format("", "")),
         (MODEL, f"<gravity>0 0 -1.6</gravity><wind><linear_velocity>2 0 0</linear_velocity></wind>{MODEL}"),
+        ("<freejoint/>", '<joint type="free" armature="0"/>'),
+        ("</link></robot>", INSIDE.format("0.055") + "</robot>"),
+        ("</robot>", "<xacro:include xmlns:xacro='x' filename='a'/></robot>"),
+        *(("</robot>", held(joint, "floor")) for joint in ("fixed", "floating")),
     ],
 )
-def test_of_walls_the_moon_and_wind_that_reaches_no_ball_nothing_is_said(put, caplog, old, new):
-    text, suffix = (MJCF, ".xml") if old in MJCF else (SDF, ".sdf")
+def test_of_what_reaches_no_ball_nothing_is_said(put, caplog, old, new):
+    """Walls, the moon, wind that does not blow on it, a smaller sphere inside, a link without mass."""
+    text, suffix = next((t, s) for t, s in ((MJCF, ".xml"), (SDF, ".sdf"), (URDF, ".urdf")) if old in t)
     assert table(put(text.replace(old, new, 1), suffix))["inertia"] == ROWS
     assert not caplog.messages
 
@@ -244,94 +295,6 @@ def test_a_geom_has_what_the_default_of_its_class_says(put, geom, around, mass):
     found = table(put(text, ".xml"))
     assert abs(float(found.pop("mass")) - mass) < 1e-15
     assert found == {"preset": "homogeneous", "radius": "0.1"}
-
-
-INSIDE = '<collision><origin xyz="0 0.05 0"/><geometry><sphere radius="{}"/></geometry></collision></link>'
-
-
-def test_a_link_that_touches_with_more_than_one_sphere_is_no_ball(put):
-    """Three balls of one link, and a cube on eight, were read as the first of them."""
-    assert table(put(URDF.replace("</link></robot>", INSIDE.format("0.055") + "</robot>")))["radius"] == "0.105"
-    with pytest.raises(SceneError, match="line 10: <collision>: a ball that rolls touches with its sphere"):
-        table(put(URDF.replace("</link></robot>", "\n" + INSIDE.format("0.056") + "</robot>")))
-    with pytest.raises(SceneError, match="and this is another shape: take it out, if it touches nothing"):
-        table(put(SDF.replace("</link>", "<collision><geometry><box/></geometry></collision></link>"), ".sdf"))
-
-
-def test_the_file_that_xacro_is_to_make_is_asked_for(put):
-    """What its macros will say is missing here."""
-    text = URDF.replace('<mass value="1.9"/>', '<xacro:mass m="1.9"/>').replace("<robot ", "<robot xmlns:xacro='x' ")
-    with pytest.raises(SceneError, match="line 5: <xacro:mass> is to be filled in: give the file that xacro makes"):
-        table(put(text))
-    assert table(put(URDF.replace("</robot>", "<xacro:include filename='a'/></robot>")))["mass"] == "1.9"
-
-
-def test_of_many_balls_some_are_named(put):
-    body = '<body><geom size="0.1"/></body>'
-    with pytest.raises(SceneError, match=r"this file has 9 with one \((without a name, ){8}…\)"):
-        table(put(f"<mujoco><worldbody>{9 * body}</worldbody></mujoco>", ".xml"))
-
-
-@pytest.mark.parametrize("joint", ["fixed", "floating"])
-def test_a_link_without_mass_does_not_hold_a_ball(put, joint):
-    text = f'<joint name="j" type="{joint}"><parent link="floor"/><child link="ball"/></joint></robot>'
-    assert table(put(URDF.replace("</robot>", text)))["inertia"] == ROWS
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        ("<geom", '<geom class="ball"', "<geom>: its class 'ball' has no <default>"),
-        ("</body>", '<frame><geom type="box" size="1 1 1"/></frame></body>', "<frame> is not read"),
-        ("</body>", '<geom type="box" size="1 1 1"/></body>', "<geom>: a ball that rolls touches with its sphere"),
-        ("</body>", '<geom type="mesh" contype="0" conaffinity="0"/></body>', "the ball has 2 geoms and no <inertial>"),
-        ("<body>", '<body name="arm"><freejoint/></body><body><joint/>', "<joint> without a name holds the ball"),
-        ("<worldbody>", '<include file="a.xml"/><worldbody>', "<include> is not read"),
-        ("<body>", '<body><joint name="h"/>', "<joint> h holds the ball"),
-        ('"0.1"', '"0.1" shellinertia="yes"', "<geom>: shellinertia must be false or true, not 'yes'"),
-        ("</body>", '<body name="rotor"/></body>', "<body> rotor holds the ball"),
-    ],
-)
-def test_what_mujoco_would_make_another_ball_of_is_refused(put, old, new, said):
-    with pytest.raises(SceneError, match=f"line 1: {said}"):
-        table(put(GEOM.replace(old, new), ".xml"))
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        ('xyz="0 0 0"', 'xyz="0 0.001 0"', ", line 3: the centre of mass of <inertial> is 1 mm off the centre of the"),
-        ('<mass value="1.9"/>', "", ", line 3: <inertial> has no mass"),
-        ('ixz="-2e-4"', "", ", line 6: <inertia> has no ixz"),
-        ('"0.0046"', '"${ixx}"', ", line 6: <inertia>: '${ixx}' is to be filled in: give the file that xacro"),
-        (
-            "</robot>",
-            """<link name="arm"><inertial/></link>
-            <joint name="j" type="fixed"><parent link="arm"/><child link="ball"/></joint></robot>""",
-            ", line 10: <joint> j of arm and ball holds the ball, but chapsym's ball rolls alone",
-        ),
-        (
-            "</robot>",
-            '<joint name="j" type="revolute"><parent link="floor"/><child link="ball"/></joint></robot>',
-            ", line 9: <joint> j of floor and ball holds the ball",
-        ),
-        ("<robot ", "<!DOCTYPE r [<!ENTITY a 'b'>]><robot ", ", line 2: a DOCTYPE is not read"),
-        ("</robot>", "", ", line 9: this is not XML: no element found"),
-        ('<sphere radius="0.105"/>', "<box/>", ": the ball is the <link> with a sphere to roll on, and this file has"),
-        ("</robot>", f"<link name='b'>{INSIDE.format(0.1)}</robot>", "this file has 2 with one (ball, b)"),
-        ("</inertial>", '\n<mass value="2"/></inertial>', ", line 8: <inertial> has two <mass>, the first on line 5"),
-        ("<inertia ", "<inertia/><inertia ", ", line 6: <inertial> has two <inertia>"),
-        ("<collision>", "<inertial/><collision>", ", line 8: <link> has two <inertial>, the first on line 3"),
-        ("<origin", "<origin/><origin", ", line 4: <inertial> has two <origin>"),
-        ("<sphere", '<sphere radius="1"/><sphere', ", line 8: <geometry> has two <sphere>"),
-        ("robot", "html", ", line 2: <html> is not <robot> (URDF), <sdf> or <mujoco> (MJCF)"),
-    ],
-)
-def test_what_is_no_ball_is_refused_with_its_line(put, old, new, said):
-    with pytest.raises(SceneError) as caught:
-        table(put(URDF.replace(old, new)))
-    assert said in str(caught.value)
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(("mass", "radius", "moment"), [("0.62", "0.1194", "0.005893"), ("0.43", "0.1098", "0.003457")])

@@ -119,7 +119,7 @@ def holds(make):
     assert scene.task().outputs
 
 
-@examples(30, 400)
+@examples(15, 400)
 @given(st.data(), st.sampled_from(sorted(DATA)))
 def test_any_change_of_the_data_gives_a_scene_or_a_sentence(data, name):
     changed = DATA[name]
@@ -130,7 +130,7 @@ def test_any_change_of_the_data_gives_a_scene_or_a_sentence(data, name):
     holds(lambda: checked(changed))
 
 
-@settings(examples(40, 200), suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture])
+@settings(examples(20, 200), suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture])
 @given(st.integers(0, len(WHOLE)), st.integers(0, 12), st.text("[]{}=\"'#\n\r\t,.19eE-+_ am\0\x85", max_size=6))
 @example(0, 0, "﻿")
 def test_any_change_of_the_text_gives_a_scene_or_a_sentence(tmp_path, start, length, text):

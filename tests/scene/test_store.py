@@ -20,6 +20,7 @@ import pytest
 import xarray
 import zarr
 from budget import slow
+from first import BALL
 from small_units import BALLS, EVERY, OUTPUTS, PART, STEPS, UNITS, equal_to_the_bit, interrupted, plan
 from waiting import GUARD, until
 
@@ -302,11 +303,10 @@ def test_a_wrong_list_of_what_does_not_come_from_the_run_is_written_anew(whole, 
 def test_without_the_list_of_digests_the_checksums_remain(whole, path, damage):
     interrupted(path, UNITS)
     damage(path / "gamma/digests.json")
-    equal_to_the_bit(load(path), whole)
     cut(path / "gamma/c/0/0/0")
     with pytest.raises(SceneError, match="gamma/c/0/0/0 is damaged"):
         load(path).gamma.load()
-    assert list(sweep.run_to_store(plan(), path).damaged) == ["gamma/c/0/0/0"]
+    assert list(mended(path, whole).damaged) == ["gamma/c/0/0/0"]
     assert (path / "gamma/digests.json").is_file()
 
 
@@ -479,13 +479,29 @@ def test_fresh_replaces_a_result_of_chapsym_only(whole, tmp_path, path):
     assert (other / "holiday.jpg").read_bytes() == b"x"
 
 
+def scratched(mark):
+    content = mark.read_bytes()
+    mark.write_bytes(content[:200] + b"XXXX" + content[204:])
+
+
+def holding(**changed):
+    """With other numbers than a mark has."""
+
+    def rewritten(mark):
+        with np.load(mark) as data:
+            found = dict(data)
+        np.savez(mark, **(found | changed))
+
+    return rewritten
+
+
 @pytest.mark.parametrize(
-    "damage", [lambda b: b[:200] + b"XXXX" + b[204:], *slow(lambda b: b[: len(b) // 2], lambda b: b"")]
+    "damage", [scratched, holding(segments_done=99), holding(gamma=np.zeros((1, 3))), *slow(cut, emptied)]
 )
 def test_a_damaged_mark_is_named_and_costs_its_balls_only(whole, path, damage):
     interrupted(path, PART)
     mark = min(stores.folder_of(path).glob("chunk-*.npz"))
-    mark.write_bytes(damage(mark.read_bytes()))
+    damage(mark)
     with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         with pytest.raises(SceneError, match=f"{mark.name} is damaged; delete it") as caught:
@@ -509,50 +525,22 @@ def test_a_mark_of_before_has_no_checksums(whole, path):
     assert not mended(path, whole).damaged
 
 
-@pytest.mark.parametrize("changed", [{"segments_done": 99}, {"gamma": np.zeros((1, 3))}])
-def test_a_mark_that_does_not_fit_is_damaged(path, changed):
-    interrupted(path, PART)
-    mark = min(stores.folder_of(path).glob("chunk-*.npz"))
-    with np.load(mark) as data:
-        found = dict(data)
-    np.savez(mark, **(found | changed))
-    with pytest.raises(SceneError, match=f"{mark.name} is damaged; delete it"):
-        sweep.run_to_store(plan(), path)
+@pytest.mark.parametrize(("place", "name", "call"), [(sweep, "advance", 5), (zarr.Array, "__setitem__", 0)])
+def test_a_store_that_is_deleted_meanwhile_leaves_no_debris(tmp_path, monkeypatch, path, place, name, call):
+    """Between two units, or in one, after its check and before its write."""
+    real, calls = getattr(place, name), iter(range(1000))
 
-
-def test_a_store_that_is_deleted_meanwhile_leaves_no_debris(tmp_path, monkeypatch, path):
-    real = sweep.advance
-    calls = iter(range(100))
-
-    def advance(*args):
-        if next(calls) == 5:
+    def deleting(*args):
+        if path.exists() and next(calls) == call:
             path.rename(tmp_path / "gone")
         return real(*args)
 
-    monkeypatch.setattr(sweep, "advance", advance)
+    monkeypatch.setattr(place, name, deleting)
     with pytest.raises(SceneError, match="was deleted or moved while it was written"):
         sweep.run_to_store(plan(), path)
     assert not path.exists()
     check_ours(tmp_path / "gone")
     assert sweep.run_to_store(plan(), path).complete
-
-
-def test_a_store_that_is_deleted_under_a_unit_leaves_no_debris(tmp_path, path, monkeypatch):
-    wanted = plan()
-    with Store.of(path, wanted):
-        chunk = wanted.chunks[0]
-        columns, _ = sweep.advance(wanted, chunk, sweep.begin(wanted, chunk), wanted.segments[0])
-        real = zarr.Array.__setitem__
-
-        def late(array, where, values):  # the store goes after the check, before the write
-            if path.exists() and not (tmp_path / "gone").exists():
-                path.rename(tmp_path / "gone")
-            real(array, where, values)
-
-        monkeypatch.setattr(zarr.Array, "__setitem__", late)
-        with pytest.raises(SceneError, match="was deleted or moved while it was written"):
-            Store(path, wanted).write(0, 0, columns)
-    assert not path.exists()
 
 
 def test_units_that_run_stop_when_another_ends_the_run(path, monkeypatch):
@@ -613,24 +601,10 @@ def test_a_worker_that_is_late_changes_nothing(whole, path):
     equal_to_the_bit(opened(path), whole)
 
 
-MOTION = """
-[ball]
-inertia = [0.006, 0.0071, 0.0089]
-mass = 2.0
-radius = 0.1
-[start]
-omega = [{ linspace = [3.0, 30.0, 10] }, -6.0, 3.0]
-[run]
-time_step = 0.05
-steps = 23
-every = 5
-outputs = ["gamma", "contact"]
-"""
-
-
 def test_the_motion_goes_on_too_and_has_the_same_bits(path, monkeypatch):
     monkeypatch.setattr(plans, "CHUNK", 4)
-    found = plan_from(MOTION)
+    scene = BALL.replace("[3.0, -2.0,", "[{ linspace = [3.0, 30.0, 10] }, -6.0,")
+    found = plan_from(f"{scene}time_step = 0.05\nsteps = 23\nevery = 5\noutputs = ['gamma', 'contact']\n")
     assert len(found.chunks) == 3
     alone = sweep.run_in_memory(found)
     assert alone["taken"].values.tolist() == [23] * 10

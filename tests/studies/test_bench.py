@@ -21,7 +21,9 @@ from benchmarks import (
     harness,
     long,
     memory,
+    plans,
     problems,
+    results,
     trajectory,
     work_precision,
 )
@@ -239,8 +241,9 @@ SLOW = {"goals", "work-precision"}
     "section", [pytest.param(one, marks=[pytest.mark.thorough] * (one in SLOW)) for one in benchmarks.SECTIONS]
 )
 def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
-    if section == "long":  # the rest is quick as it is
-        monkeypatch.setattr(long, "QUICK", (2000, 2))
+    monkeypatch.setattr(long, "QUICK", (2000, 2))
+    monkeypatch.setattr(plans, "BATCH", 20)
+    monkeypatch.setattr(results, "interleaved", lambda sides, rounds, *told: harness.interleaved(sides, 1, *told))
     said = []
     found = benchmarks.run(section, True, said.append)
     data = json.loads(json.dumps(command.plain({section: found}, True), allow_nan=False))

@@ -24,8 +24,8 @@ PINS = json.loads((Path(__file__).parent / "extremes.json").read_text(encoding="
 #: How verdicts are pinned, a letter for each precision.
 LETTERS = {"within": "w", "refused": "r", "failed": "f"}
 #: The interval between the rows of a group that are run, 4 for other groups; thorough runs take all rows.
-ONE_IN = dict.fromkeys(("inertia", "fold", "order", "rotation", "D", "momentum", "vertical", "directions"), 7)
-ONE_IN |= dict.fromkeys(("fold search", *study.SHARED), 12)
+ONE_IN = dict.fromkeys(("inertia", "fold", "order", "rotation", "D", "momentum", "vertical", "directions"), 10)
+ONE_IN |= dict.fromkeys(("fold search", *study.SHARED), 16)
 TOGETHER = [group for group in study.GROUPS if group not in study.SHARED]
 GENERIC = State(states.J, states.D, states.K, states.G)
 HEAVIEST = "D = 1e15, momentum horizontal"

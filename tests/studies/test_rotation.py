@@ -246,7 +246,7 @@ def small():
     from research.units import Unit, compute
 
     planned = units(True)
-    cut = {"fifth": 4, "turns": 2, "small_D": 3, "farey": 4}
+    cut = {"fifth": 2, "turns": 1, "small_D": 3, "farey": 2}
     found = {
         name: [
             compute(u.function, u.arguments, u.key)
@@ -287,7 +287,7 @@ def test_the_sentences_say_what_locks(small):
     assert any("zero but for rounding" in x for x in words)
     assert any("D = 1, h = 12/5, 1/9 half turns, 60 digits: the displacement reaches 1.4e-28" in x for x in words)
     assert any("kicked by 1/100 sin 2φ: the displacement reaches 1.4e-17: it locks" in x for x in words)
-    assert any("(resonance tongues at fixed h) measured: 13, each of positive width" in x for x in words)
+    assert any("(resonance tongues at fixed h) measured: 8, each of positive width" in x for x in words)
 
 
 @pytest.mark.parametrize("quick", [True, False])
