@@ -107,3 +107,16 @@ def sweep(balls=60):
     }  # fmt: skip
     title = {"title": "Rotation number of a vertical momentum"}
     return xr.Dataset({name: ("ball", values) for name, values in data.items()}, coords, title)
+
+
+#: The ball of `rolled`, and one whose moments are equal.
+BALL = chapsym.Ball.from_inertia((0.02, 0.028, 0.035), mass=7.0, radius=0.11)
+EVEN = chapsym.Ball.from_inertia((0.02, 0.02, 0.02), mass=7.0, radius=0.11)
+
+
+def rolled(steps=600, time_step=0.005, omega=(3.0, 4.0, 10.0), ball=BALL, every=1, names=None, **attrs):
+    """One ball, or as many as omega has rows, rolled for `steps` steps: the Dataset, for the page."""
+    gamma = np.broadcast_to([0.0, 0.0, 1.0], np.shape(omega))
+    run = chapsym.roll(ball, omega, time_step, steps, gamma=gamma, every=every, attitude=True, contact=True, map=True)
+    names = names or [f"ball {i + 1}" for i in range(np.size(run.taken))]
+    return of(run, ALL[:5], "A rolling ball", names=names).assign_attrs({"model": "full"} | attrs)

@@ -69,6 +69,33 @@ def test_lower_rooms_never_import_higher_ones_and_what_runs_the_map_does_not_imp
         assert room in SYMPY_ROOMS or parts[0] != "sympy", f"{path.name} imports {name}"
 
 
+def circle(known):
+    """The modules that are left when those that import none of the others are taken away, again and again."""
+    left = {name: set(imported(name, path, known)) - {name} for name, path in known.items()}
+    while free := [name for name, needs in left.items() if not needs & left.keys()]:
+        for name in free:
+            del left[name]
+    return sorted(left)
+
+
+@pytest.mark.parametrize("room", [*ROOMS, "cli"])
+def test_no_file_of_a_room_imports_lazily_or_not_one_that_comes_to_import_it(room):
+    assert circle(files(room)) == []
+
+
+#: The rooms inside of chapsym.scene, each of which imports those before it only.
+OF_SCENE = ("read", "members", "plan", "result", "running")
+
+
+def test_the_rooms_of_scene_stand_on_each_other():
+    for name, path in files("scene").items():
+        inside = name.split(".")[2:3]
+        for other in imported(name, path, KNOWN) if inside and inside[0] in OF_SCENE else ():
+            below = other.removeprefix("chapsym.scene.").split(".")[0]
+            if below in OF_SCENE:
+                assert OF_SCENE.index(below) <= OF_SCENE.index(inside[0]), f"{name} imports {other}"
+
+
 PAGE = (ROOT.parent / "docs/explanation/architecture.md").read_text(encoding="utf-8")
 
 

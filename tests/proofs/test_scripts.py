@@ -99,18 +99,10 @@ def test_a_script_of_ones_own_is_judged_anywhere(right, status, verdict, forgott
     assert f"verdict: {verdict}" in said
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "sentence"),
-    [
-        ("my-1", "4.1", r"two proofs judge the claim 4.1; give yours an id of its own"),
-        ("5.2", "5.2000", r"my-1 uses '5.2000', which no proof judges"),
-        ("@claim", "#", r"has no claim: write @claim"),
-    ],
-)
-def test_what_is_wrong_with_a_script_of_ones_own_is_a_sentence(old, new, sentence, forgotten, tmp_path):
+def test_what_is_wrong_with_a_script_of_ones_own_is_a_sentence(forgotten, tmp_path):
     script = tmp_path / "mine.py"
-    script.write_text(OWN.replace(old, new), encoding="utf-8")
-    with pytest.raises(SystemExit, match=sentence):
+    script.write_text(OWN.replace("@claim", "#"), encoding="utf-8")
+    with pytest.raises(SystemExit, match=r"has no claim: write @claim"):
         main(str(script))
 
 

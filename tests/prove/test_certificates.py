@@ -21,8 +21,9 @@ from chapsym.prove import Comparison, Equation, Examples, Fact, Proof, Verdict, 
 from chapsym.prove.certificates import certificate
 from chapsym.prove.cofactors import Ideal
 from chapsym.prove.points import candidates
+from chapsym.prove.polynomials import Identity, parameters
 from chapsym.prove.runner import explain, judge
-from chapsym.prove.trees import NotAlgebra, tree
+from chapsym.prove.trees import NotAlgebra, shared, tree
 
 FOLDER = Path(proofs.__file__).parent / "certificates" / "register"
 x, y, z = sp.symbols("x y z")
@@ -229,6 +230,27 @@ def test_a_claim_whose_certificate_is_not_accepted_is_open(monkeypatch):
 def test_what_is_no_quotient_of_polynomials_has_no_tree(expr):
     with pytest.raises(NotAlgebra):
         tree(expr)
+
+
+def test_what_was_made_of_parameters_is_a_tree_with_names_for_what_occurs_often_or_of_factors_in_lowest_terms():
+    a, b = parameters("a b")
+    whole = a + b
+    both = 2 / whole + 0 * a
+    assert shared([both * both, both**-1 - 1 * b, whole + a, 0 * a, 3]) == (
+        [["_1", ["+", "a", "b"]], ["_2", ["*", ["^", "_1", -1], 2]]],
+        [["*", "_2", "_2"], ["+", ["^", "_2", -1], ["*", "b", -1]], ["+", "_1", "a"], 0, 3],
+    )
+    data = certificate("0", "x", proof(Identity("square", [whole * whole], [a**2 + 2 * a * b + b**2])))
+    assert [(s["text"], s["cofactors"]) for s in data["statements"]] == [("square", [[]])]
+    assert data["statements"][0]["definitions"] == [["_1", ["+", "a", "b"]]]
+    assert data["sentences"] == []
+    made = (a**2 - b**2) / (2 * a * (a + b) ** 3)
+    assert (made.made[0], made.lowest().made, made.lowest() == made) == ("*", None, True)
+    lowest = ["*", "1/2", ["+", ["*", -1, "b"], "a"], ["^", ["+", "b", "a"], -2], ["^", "a", -1]]
+    assert shared([made.lowest()]) == ([], [lowest])
+    one = made.lowest()
+    assert [name for name, _ in shared([one * one])[0]] == ["_1"]
+    assert shared([(a - a + 1).lowest(), (a - a).lowest()])[1] == [1, 0]
 
 
 def test_cofactors_make_a_polynomial_of_the_ideal_and_there_are_none_for_another():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rolling_results import EVEN, rolled
+from results import EVEN, rolled
 
 import chapsym
 from chapsym.dynamics import BadInput, Status, kernels

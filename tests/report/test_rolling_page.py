@@ -9,7 +9,7 @@ import pytest
 from budget import slow
 from contrast import contrast, low
 from matplotlib import image
-from rolling_results import BALL, EVEN, rolled
+from results import BALL, EVEN, rolled
 from shown import DESK, PHONE, WEBGL, Shown
 from waiting import until
 
