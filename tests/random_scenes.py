@@ -6,7 +6,8 @@
 import math
 from random import Random
 
-from motion_reference import si
+import numpy as np
+from motion_reference import matrix, si
 
 #: How many there are.
 COUNT = 40
@@ -99,17 +100,9 @@ def with_units(r):
 def tensor(r, strongly):
     """A full tensor of inertia, symmetric to the last bit."""
     words, mass, radius = sized(r)
-    J, (w, x, y, z) = moments(r, mass, radius, strongly), quaternion(r)
-    Q = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    second = [[sum(Q[i][k] * J[k] * Q[j][k] for k in range(3)) for j in range(3)] for i in range(3)]
-    words["inertia"] = [
-        [float(f"{(sum(J) if i == j else 0.0) - second[min(i, j)][max(i, j)]:.9g}") for j in range(3)] for i in range(3)
-    ]
-    return words
+    J, Q = moments(r, mass, radius, strongly), matrix(np.array(quaternion(r)))
+    inertia = sum(J) * np.eye(3) - Q @ np.diag(J) @ Q.T
+    return words | {"inertia": [[float(f"{inertia[min(i, j), max(i, j)]:.9g}") for j in range(3)] for i in range(3)]}
 
 
 def top(r):

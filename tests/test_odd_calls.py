@@ -33,12 +33,8 @@ def test_what_is_wrong_with_a_call_is_seen(monkeypatch):
         if isinstance(momentum, np.ndarray) and momentum.dtype == float:
             momentum[...] = 7.0
 
-    for wrong, said in (
-        (broken, "KeyError"),
-        (loud, "RuntimeWarning"),
-        (silent, "NaN"),
-        (careless, "changes momentum"),
-    ):
+    expected = {broken: "KeyError", loud: "RuntimeWarning", silent: "NaN", careless: "changes momentum"}
+    for wrong, said in expected.items():
         monkeypatch.setattr(chapsym, "exact_top", wrong)
         monkeypatch.setattr(odd_calls, "NAMES", ["exact_top"])
         assert any(said in (odd_calls.wrong(seed) or "") for seed in range(30)), said
@@ -195,34 +191,34 @@ def deep(levels):
     return [deep(levels - 1)] if levels else 1.0
 
 
-RUN = (0.1, 0.2, 0), UP, 2
+def run(**options):
+    return chapsym.trajectory(BALL, (0.1, 0.2, 0), UP, 2, **options)
+
+
+def saved(data):
+    return chapsym.Result(data.to_xarray()).save("no-such-folder/a.csv")
+
+
+HUGE = chapsym.Ball((1e200, 2e200, 4e200), 0)
 EQUATOR = chapsym.Curve.through(chapsym.Ball((2, 2, 1), 3), (0.6, 0.8, 1e-151))
 REFUSED = {
-    "K = 𝒦/ε is beyond the range of float64": lambda: chapsym.trajectory(BALL, *RUN, time_step=5e-324).omega,
-    "K = 𝒦/ε is beyond the range of float32": lambda: chapsym.trajectory(
-        BALL, *RUN, time_step=1e-200, precision="single"
-    ).angular_momentum(),
-    "energy is beyond the range of float64": lambda: chapsym.trajectory(BALL, *RUN, time_step=1e-200).kinetic_energy(),
-    "an invariant is beyond the range of float64": lambda: chapsym.trajectory(
-        chapsym.Ball((1e200, 2e200, 4e200), 0), (1e199, 2e199, 0), (0, 0, 1), 2
-    ).invariants(),
+    "K = 𝒦/ε is beyond the range of float64": lambda: run(time_step=5e-324).omega,
+    "K = 𝒦/ε is beyond the range of float32": lambda: run(time_step=1e-200, precision="single").angular_momentum(),
+    "energy is beyond the range of float64": lambda: run(time_step=1e-200).kinetic_energy(),
+    "an invariant is beyond the range of": lambda: chapsym.trajectory(HUGE, (1e199, 2e199, 0), UP, 2).invariants(),
     "momentum has 61 axes": lambda: chapsym.step(BALL, np.ones((1,) * 60 + (3,)), (0, 0, 1)),
-    "the certificate has no array": lambda: chapsym.certify(chapsym.trajectory(BALL, *RUN)).digits(np.zeros(3)),
+    "the certificate has no array": lambda: chapsym.certify(run()).digits(np.zeros(3)),
     "vector must be real numbers": lambda: chapsym.skew(deep(700)),
     "gamma is not on this curve": lambda: EQUATOR.argument((0.6, 0, 0.8)),
-    "dataset must be the dataset of a result": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN)),
+    "dataset must be the dataset of a result": lambda: chapsym.Result(run()),
     "dataset must be the dataset of a result, with ball": lambda: chapsym.Result(Unheard()),
-    "dataset of a result, with ball and": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN).to_xarray().gamma),
-    "path must name a file": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN).to_xarray()).save(None),
-    "a result without balls has nothing to save": lambda: chapsym.Result(
-        chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2).to_xarray()
-    ).save("no-such-folder/a.csv"),
-    "no file has this result: momentum has no real numbers": lambda: chapsym.Result(
-        chapsym.trajectory(BALL, *RUN, precision=chapsym.Digits(20)).to_xarray()
-    ).save("no-such-folder/a.csv"),
+    "dataset of a result, with ball and": lambda: chapsym.Result(run().to_xarray().gamma),
+    "path must name a file": lambda: chapsym.Result(run().to_xarray()).save(None),
+    "a result without balls has nothing to save": lambda: saved(chapsym.trajectory(BALL, np.zeros((0, 3)), UP, 2)),
+    "no file has this result: momentum has no real": lambda: saved(run(precision=chapsym.Digits(20))),
     "write is of a step in three dimensions": lambda: chapsym.step_n(BALL_N, chapsym.skew(K), UP).write(),
-    "balls must be True or False": lambda: chapsym.trajectory(BALL, *RUN).to_pandas(balls=np.ones(3)),
-    "run must be a result, its Dataset": lambda: chapsym.interpolated(chapsym.trajectory(BALL, *RUN).to_pandas(), 0),
+    "balls must be True or False": lambda: run().to_pandas(balls=np.ones(3)),
+    "run must be a result, its Dataset": lambda: chapsym.interpolated(run().to_pandas(), 0),
     "angular_momentum must be 3 numbers, not": lambda: chapsym.certified_motion(BALL, itertools.count(), UP, 1),
     "times must be at most 10000000 numbers, not": lambda: chapsym.certified_motion(BALL, K, UP, itertools.count()),
     "times must be a number": lambda: chapsym.certified_motion(BALL, K, UP, Unheard()),

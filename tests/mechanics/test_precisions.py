@@ -48,7 +48,7 @@ def outside(enclosed, digits):
 @pytest.mark.parametrize(
     ("name", "method"),
     [
-        *(("contact", method) for method in ("dla", "spark", "rk4")),
+        *(("contact", method) for method in ("dla", "rk4")),
         *slow(*((name, method) for name in ("contact", "sleigh", "particle") for method in ANYWHERE)),
     ],
 )

@@ -318,6 +318,7 @@ def disc(folder):
     return found["claims"], [json.loads(path.read_text("utf-8")) for path in sorted(Path("kept").glob("*.json"))]
 
 
+@pytest.mark.thorough  # that its verdicts are these, docs/how-to/own-claims.md shows
 def test_the_worked_example_finds_what_is_false_in_the_documentation_of_sympy(disc):
     found, certificates = disc
     false = {"L-potential", "L-1", "L-2", "L-3", "L-a1", "L-a2", "L-a3"}

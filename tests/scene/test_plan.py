@@ -12,7 +12,7 @@ from chapsym.dynamics.outputs import OUTPUTS, K, Output, columns_for, timed
 from chapsym.generated import TABLE
 from chapsym.scene.members.members import Members
 from chapsym.scene.plan import plan as plans
-from chapsym.scene.plan.models import MODELS, Chosen, Rolling
+from chapsym.scene.plan.models import MODELS, Chosen
 from chapsym.scene.plan.plan import full, planned, predicted
 from chapsym.scene.read.task import Task
 from chapsym.scene.running import sweep
@@ -186,7 +186,8 @@ def test_what_cannot_be_had_is_told(members, outputs, sentence):
         planned(members(radius=None), Task(outputs, 5))
 
 
-def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
+def test_what_is_chosen_for_each_ball_has_an_error_and_its_place(members):
+    """That the error is one, test_motion.py sees."""
     some = members(2)
     some = replace(some, momentum=some.momentum / 0.01, place=np.array([[1.0, 0.0]] * 2))
     task = Task(("contact", "momentum"), 4, accuracy=1e-7, time=2.0, of="contact", searched=True)
@@ -198,15 +199,7 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
         columns, state = sweep.advance(plan, chunk, sweep.begin(plan, chunk), segment)
         assert columns["contact"].shape == (1, 5, 2)
         assert state["error"][0] <= 1e-7
-        one, place = some.of(chunk), np.zeros((1, 2))
-        attitude = Rolling().attitude(one)
-        fine = Rolling().run(
-            replace(one, momentum=one.momentum * 2e-4), Task(("contact",), 10_000, 2500, 2e-4, order=8),
-            {"momentum": one.momentum * 2e-4, "gamma": one.gamma, "attitude": attitude, "contact": place},
-            10_000, lambda steps: None,
-        )  # fmt: skip
-        assert np.abs(columns["contact"] - [1, 0] - fine.contact).max() < 1e-7
-        assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7
+        assert (columns["contact"][0, 0] == [1, 0]).all()
 
 
 def test_a_cost_is_nominal_and_grows_with_steps_digits_and_dimensions(members):
