@@ -77,15 +77,12 @@ def moments(r, mass, radius, strongly):
     return [whole * share for share in shares]
 
 
-def principal(r, strongly):
+def principal(r, strongly, key="inertia"):
+    """Three moments: of inertia, or of mass."""
     words, mass, radius = sized(r)
     x, y, z = moments(r, mass, radius, strongly)
-    return {"inertia": [float(f"{a:.6g}") for a in (y + z, x + z, x + y)], **words}
-
-
-def pseudo(r, strongly):
-    words, mass, radius = sized(r)
-    return {"mass_tensor": [float(f"{a:.6g}") for a in moments(r, mass, radius, strongly)], **words}
+    three = (y + z, x + z, x + y) if key == "inertia" else (x, y, z)
+    return {key: [float(f"{a:.6g}") for a in three], **words}
 
 
 def with_units(r):
@@ -110,10 +107,6 @@ def top(r):
     return {"mass_tensor": [number(r, 0.5, 2) for _ in range(3)], "D": r.choice([0.0, number(r, 1, 9)]), "radius": 0.5}
 
 
-def homogeneous(r):
-    return {"preset": "homogeneous", **sized(r)[0]}
-
-
 def shell(r):
     thick = {"thickness": f"{number(r, 1, 20)} mm"} if r.random() < 0.5 else {}
     return {"preset": "shell", **sized(r)[0], **thick}
@@ -132,8 +125,9 @@ def bowling(r):
 
 
 BODIES = [
-    lambda r: principal(r, False), lambda r: tensor(r, True), lambda r: pseudo(r, True), bowling, with_units,
-    lambda r: tensor(r, False), dumbbell, top, lambda r: principal(r, True), shell, homogeneous,
+    lambda r: principal(r, False), lambda r: tensor(r, True), lambda r: principal(r, True, "mass_tensor"),
+    bowling, with_units, lambda r: tensor(r, False), dumbbell, top, lambda r: principal(r, True), shell,
+    lambda r: {"preset": "homogeneous", **sized(r)[0]},
 ]  # fmt: skip
 
 

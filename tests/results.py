@@ -13,6 +13,7 @@ from chapsym.scene.result.dataset import arrays
 BOWLING = chapsym.Ball.from_inertia((0.0300, 0.0312, 0.0318), mass=7.0, radius=0.1085)
 UNEVEN = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
 VERTICAL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
+GAMMA = (2 / 7, 3 / 7, 6 / 7)
 
 
 def of(run, outputs, title="A ball", parameters=None, names=None):
@@ -38,17 +39,15 @@ def of(run, outputs, title="A ball", parameters=None, names=None):
 ALL = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals")
 
 
-def bowling(steps=2000, every=1, **options):
+def bowling(steps=2000, every=1, outputs=ALL):
     """A bowling ball, two seconds of it."""
     run = chapsym.roll(BOWLING, (2.0, 30.0, 5.0), 1e-3, steps, every=every, contact=True, map=True)
-    return of(
-        run, options.pop("outputs", ALL), options.pop("title", "A dynamically asymmetric bowling ball"), **options
-    )
+    return of(run, outputs, "A dynamically asymmetric bowling ball")
 
 
 def uneven(steps=1000):
     """The ball of docs/first.toml."""
-    run = chapsym.roll(UNEVEN, (3.0, -2.0, 1.0), 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), contact=True, map=True)
+    run = chapsym.roll(UNEVEN, (3.0, -2.0, 1.0), 0.01, steps, gamma=GAMMA, contact=True, map=True)
     return of(run, ALL, "An uneven ball of 2 kg, rolled for ten seconds")
 
 
@@ -67,17 +66,13 @@ def batch(balls=400, steps=1500, every=5, seed=1, width=0.05):
     """Nearby starts of the uneven ball."""
     rng = np.random.default_rng(seed)
     omega = np.array([3.0, -2.0, 1.0]) + width * rng.standard_normal((balls, 3))
-    run = chapsym.roll(
-        UNEVEN, omega, 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), every=every, contact=True, map=True
-    )  # fmt: skip
+    run = chapsym.roll(UNEVEN, omega, 0.01, steps, gamma=GAMMA, every=every, contact=True, map=True)
     return of(run, ALL, f"{balls} nearby starts", {"start.omega.1": omega[:, 0]})
 
 
 def top(steps=300, every=1):
     """D = 0: 𝒦 runs on its polhode, γ is not on a curve."""
-    run = chapsym.trajectory(
-        chapsym.Ball((1.0, 2.0, 4.0), 0.0), (0.3, 0.6, 0.9), (2 / 7, 3 / 7, 6 / 7), steps, every=every
-    )
+    run = chapsym.trajectory(chapsym.Ball((1.0, 2.0, 4.0), 0.0), (0.3, 0.6, 0.9), GAMMA, steps, every=every)
     return of(run, ("momentum", "gamma", "integrals"), "A free top")
 
 
@@ -92,8 +87,8 @@ def four(steps=1500):
 
 def folded():
     """Two balls, the second of which meets a fold after 50 steps."""
-    ball, gamma = chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.1), (2 / 7, 3 / 7, 6 / 7)
-    run = chapsym.trajectory(ball, [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], gamma, 300, contact=True)
+    ball = chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.1)
+    run = chapsym.trajectory(ball, [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)], GAMMA, 300, contact=True)
     return of(run, ("momentum", "gamma", "contact", "integrals"), "One ball stops", names=["slow", "fast"])
 
 

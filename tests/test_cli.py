@@ -195,10 +195,8 @@ def test_output_that_cannot_be_written_is_one_sentence_and_that_nobody_reads_end
     command = [sys.executable, "-m", "chapsym", *STEP]
     with open("/dev/full", "w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-    assert (done.returncode, done.stderr) == (
-        2,
-        "chapsym: standard output cannot be written: No space left on device\n",
-    )
+    said = "chapsym: standard output cannot be written: No space left on device\n"
+    assert (done.returncode, done.stderr) == (2, said)
     reader, writer = os.pipe()
     os.close(reader)
     done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False)

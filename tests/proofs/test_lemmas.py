@@ -54,18 +54,14 @@ SLIPS = {
     "half the load": (modified, ["load"], lambda right: right.subs(three.D, three.D / 2), ["modified-field"]),
     "the correction": (modified, ["correction"], lambda right: right + modified.omega, ["modified-field"]),
     "a factor of the energy": (modified, ["energy_rate"], lambda right: right * 4 / 3, ["modified-energy"]),
-    "a vector product": (
-        three, ["carried_steps"], lambda right: (right[0], right[1] + three.DRAG), ["stable-momentum"]
-    ),
+    "a vector product": (three, ["carried_steps"], lambda of: (of[0], of[1] + three.DRAG), ["stable-momentum"]),
     "the determinant": (gibbs, ["newton_heavy_steps"], lopsided, ["stable-determinant"]),
     "twice D": (continuous, ["angular_velocity"], doubled, ["stable-inverse", "isotropic-spin"]),
     "the residual": (
         gibbs, ["residual", "jacobian"], flipped,
         ["steady-branch", "steady", "steady-axis", "steady-roll", "measure-iff", "separatrix-map"],
     ),
-    "the value of V": (
-        elliptic, ["increment_parts"], lambda right: [right[0], 2 * right[1], *right[2:]], ["separatrix-map"],
-    ),
+    "the value of V": (elliptic, ["increment_parts"], lambda of: [of[0], 2 * of[1], *of[2:]], ["separatrix-map"]),
     "a factor in the kernel": (steady, ["spin_steps"], lambda right: (right[0], 2 * right[1]), ["isotropic-spin"]),
     "the contact point": (three, ["centre_step"], lambda right: sp.diag(1, 1, -1) * right, ["straight"]),
     "the contact term": (

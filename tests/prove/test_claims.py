@@ -44,6 +44,7 @@ CERTIFICATE, ANSWER = (
     ("certificate", "c.json", "x > 0", "0" * 64, True),
     ("settle", [Reading("r", "root", "no", ("part",))]),
 )
+LARGE, NOT_ACCEPTED = ("assume", "x is large", x > 1), ("certificate", "d.json", "x > 1", "0", False)
 STATED = [("state", Theorem((), (), (no("root"),)), "part"), ("say", "So."), ("step", no("root"), "c.json")]
 SETTLED = [("lemma", TRUE), CONTROL, CERTIFICATE, *STATED, ANSWER]
 #: Statements that are no equations: one with a point, where it fails, and one without.
@@ -75,38 +76,20 @@ RULES = {
     "an answer with a false lemma": ([*SETTLED, ("lemma", FALSE)], ""),
     "an answer with a control that passes": ([*SETTLED, ("control", TRUE)], ""),
     "an answer that is left open": ([*SETTLED, ("leave_open", "a polynomial")], Verdict.OPEN),
-    "with a certificate that is refused": (
-        [*SETTLED, ("certificate", "d.json", "x > 1", "0", False)],
-        "does not accept d.json",
-    ),
-    "evidence and conjectures": (
-        [("lemma", TRUE), CONTROL, ("measure", "1e-28"), ("conjecture", "never")],
-        "no printed form",
-    ),
+    "with a certificate that is refused": ([*SETTLED, NOT_ACCEPTED], "does not accept d.json"),
+    "evidence and conjectures": ([("lemma", TRUE), CONTROL, ("measure", "1"), ("conjecture", "2")], "no printed form"),
     "a counterexample off the hypotheses": ([*MENDED, ("counterexample", OFF_CIRCLE)], "violates the hypothesis"),
-    "a counterexample off it": (
-        [("assume", "x is large", x > 1), *MENDED, ("counterexample", ON_CIRCLE)],
-        "violates the hypothesis x is large",
-    ),
-    "no counterexample": (
-        [*MENDED, ("counterexample", rational_point({x: 1, y: 0}))],
-        "does not contradict the printed",
-    ),
+    "a counterexample off it": ([LARGE, *MENDED, ("counterexample", ON_CIRCLE)], "violates the hypothesis x is large"),
+    "no counterexample": ([*MENDED, ("counterexample", rational_point({x: 1, y: 0}))], "does not contradict the"),
     "a false form": (WRONG, "not proved as printed: false; if it is false, give p.counterexample a point where it"),
     "a false form without a correction": ([*WRONG, ("counterexample", ON_CIRCLE)], Verdict.REFUTED),
-    "a form under a condition": (
-        [("printed", FREE), APART, ("under", "|x|² + |y|² = 1", TRUE), CONTROL],
-        Verdict.CONDITIONAL,
-    ),
+    "a form under a condition": ([("printed", FREE), APART, ("under", "a norm", TRUE), CONTROL], Verdict.CONDITIONAL),
     "false at its witness": ([PROVED, CONTROL, ("witness", "other", {}, FALSE)], "fails at its witness (other): false"),
     "a second route": ([PROVED, CONTROL, ("route", "another", TRUE)], Verdict.HOLDS),
     "a second route that differs": ([PROVED, CONTROL, ("route", "another", FALSE)], "the second route fails: another"),
     "a second route of nothing": ([PROVED, CONTROL, ("route", "none")], ""),
     "a comparison that fails": (COMPARED, Verdict.CORRECTED),
-    "a comparison off what was assumed": (
-        [("assume", "x is large", x > 1), *COMPARED],
-        "violates the hypothesis x is large",
-    ),
+    "a comparison off what was assumed": ([LARGE, *COMPARED], "violates the hypothesis x is large"),
     "what is false and has no point": (COUNTED, ""),
     "a counterexample that lacks a value": (
         [("assume", "x is a square", sp.Eq(x, y**2)), ("printed", ONE), ("counterexample", rational_point({x: -4}))],

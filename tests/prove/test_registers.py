@@ -130,18 +130,14 @@ def test_the_register_of_chapsym_is_one_of_them(folder):
         Register("chapsym.nothing").load()
 
 
+UNSAID = "class E(BaseException):\n    __str__ = None\nraise E\n"
 BROKEN = r"claims/cubes\.py cannot be loaded: "
 #: What is wrong: the file, what is put in the place of what, and what is said.
 WRONG = {
     "a syntax error": ("cubes", "def cube", "def cube(", BROKEN + "SyntaxError: .*line 6"),
     "a missing module": ("cubes", "from ring", "from rings", BROKEN + "ModuleNotFoundError: No module named 'rings'"),
     "an exception": ("cubes", "@claim", "1 / 0\n@claim", BROKEN + r"ZeroDivisionError: .* \(cubes\.py, line 5\)"),
-    "an end of another kind": (
-        "cubes",
-        "@claim",
-        "class E(BaseException):\n    __str__ = None\nraise E\n@claim",
-        BROKEN + "E: an",
-    ),
+    "an end of another kind": ("cubes", "@claim", f"{UNSAID}@claim", BROKEN + "E: an"),
     "one beside": ("ring", "equal =", "1 / 0\nequal =", BROKEN + r"ZeroDivisionError: .* \(ring\.py, line 6\)"),
     "an end": ("cubes", 'if __name__ == "__main__"', "if True", BROKEN + r"it leaves Python; .* main\(__file__\)"),
     "an id twice": ("cubes", "c-1", "s-1", r"squares\.py: two proofs judge the claim s-1; .*cubes\.py, line 5"),

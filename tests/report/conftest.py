@@ -4,7 +4,6 @@ import copy
 from functools import cache, partial
 
 import chromium
-import commands
 import pytest
 import shown
 
@@ -99,15 +98,3 @@ def opened(tabs):
     yield open_page
     for page in used.values():
         assert page.leave() == []
-
-
-@pytest.fixture
-def command():
-    """Runs `chapsym` in this process."""
-    return commands.chapsym
-
-
-@pytest.fixture
-def show(command):
-    """Runs `chapsym show`."""
-    return partial(command, "show")

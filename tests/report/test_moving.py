@@ -6,6 +6,7 @@ import os
 import numpy as np
 import pytest
 import results
+from commands import chapsym as command
 from commands import refused
 from PIL import Image
 
@@ -111,13 +112,13 @@ def test_a_ball_that_stops_and_one_without_contact_move_until_their_last_frame(m
     assert drawn.clock.get_text() == f"step {int(dataset['taken'][1])}"
 
 
-def test_the_command_writes_the_motion_and_figures_in_every_format(tmp_path, show, monkeypatch):
+def test_the_command_writes_the_motion_and_figures_in_every_format(tmp_path, monkeypatch):
     monkeypatch.setattr(moving, "RATE", 2)
     Result(results.bowling(40)).save(tmp_path / "a.nc")
-    done = show(tmp_path / "a.nc", "-o", tmp_path / "b", "--format", "gif", "--no-page")
+    done = command("show", tmp_path / "a.nc", "-o", tmp_path / "b", "--format", "gif", "--no-page")
     assert done.stdout == f"{tmp_path / 'b' / 'motion.gif'}\n"
     assert Image.open(io.BytesIO((tmp_path / "b" / "motion.gif").read_bytes())).n_frames >= 2
-    done = show(tmp_path / "a.nc", "-o", tmp_path / "c", "--format", "pdf", "--figures", "contact")
+    done = command("show", tmp_path / "a.nc", "-o", tmp_path / "c", "--format", "pdf", "--figures", "contact")
     assert (tmp_path / "c" / "contact.pdf").read_bytes()[:5] == b"%PDF-"
     assert "figures do not move" in refused("show", tmp_path / "a.nc", "--format", "gif", "--figures", "omega")
     monkeypatch.setenv("PATH", str(tmp_path))

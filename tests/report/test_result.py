@@ -1,6 +1,5 @@
 """Results in Python and in notebooks, and `chapsym show`."""
 
-import json
 import re
 from pathlib import Path
 
@@ -9,7 +8,8 @@ import pytest
 import results
 import small_units
 from budget import slow
-from commands import refused
+from commands import answer, refused
+from commands import chapsym as command
 from first import BALL, FIRST
 
 import chapsym
@@ -94,10 +94,10 @@ def test_show_without_a_notebook_opens_a_folder_and_the_page_is_written(monkeypa
     assert "<html" in (tmp_path / "page.html").read_text(encoding="utf-8")
 
 
-def test_the_command_runs_a_scene_and_draws_it(tmp_path, show):
+def test_the_command_runs_a_scene_and_draws_it(tmp_path):
     scene = tmp_path / "ball.toml"
     scene.write_text(TOML)
-    done = show(scene, "--format", "both")
+    done = command("show", scene, "--format", "both")
     assert done.returncode == 0, done.stderr
     folder = tmp_path / "ball-figures"
     assert {path.name for path in folder.iterdir()} == {"contact.svg", "contact.png", "energy.svg", "energy.png"}
@@ -105,22 +105,21 @@ def test_the_command_runs_a_scene_and_draws_it(tmp_path, show):
     assert "From a file" not in done.stderr
 
 
-def test_the_command_draws_a_result_with_its_page(tmp_path, show):
+def test_the_command_draws_a_result_with_its_page(tmp_path):
     chapsym.run_scene(SCENE).save(tmp_path / "a.nc")
-    done = show(tmp_path / "a.nc", "-o", tmp_path / "pictures", "--json")
-    words = json.loads(done.stdout)
+    words = answer("show", tmp_path / "a.nc", "-o", tmp_path / "pictures")
     names = ["contact.svg", "attitude.svg", "energy.svg", "integrals.svg", "page.html"]
     assert [Path(name).name for name in words["files"]] == names
     assert set(words["missing"]) == {"spheres", "spread", "rotation", "phase", "omega"}
     assert all(Path(name).stat().st_size > 1000 for name in words["files"])
 
 
-def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, show):
+def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path):
     """Balls that have not begun are not counted as stopped; what is saved of it stays half a run."""
     small_units.interrupted(
         tmp_path / "half.zarr", small_units.PART, small_units.plan((*small_units.SOME, "attitude", "contact"))
     )
-    done = show(tmp_path / "half.zarr", "-o", tmp_path / "p", "--figures", "contact", "--page")
+    done = command("show", tmp_path / "half.zarr", "-o", tmp_path / "p", "--figures", "contact", "--page")
     assert done.returncode == 0, done.stderr
     words = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 10 balls to their ends)\n", done.stdout)[1]
     assert f"the run is not finished: {words} can be shown" in (tmp_path / "p" / "page.html").read_text(
@@ -146,13 +145,11 @@ def test_a_run_of_which_no_ball_has_begun_is_shown_as_a_table_only(tmp_path):
     assert "<svg" not in chapsym.open_result(tmp_path / "none.zarr")._repr_html_()
 
 
-def test_each_result_has_a_folder_of_its_own_and_the_first_scene_its_page(tmp_path, command, show):
+def test_each_result_has_a_folder_of_its_own_and_the_first_scene_its_page(tmp_path):
     for suffix in ("npz", "csv"):
         assert command("run", FIRST, "-o", tmp_path / f"first.{suffix}").returncode == 0
-    folders = [
-        Path(json.loads(show(tmp_path / f"first.{end}", "--json", "--figures", "contact", "--page").stdout)["folder"])
-        for end in ("npz", "csv")
-    ]
+    shown = (answer("show", tmp_path / f"first.{end}", "--figures", "contact", "--page") for end in ("npz", "csv"))
+    folders = [Path(one["folder"]) for one in shown]
     assert len(set(folders)) == 2
     assert all((folder / "page.html").exists() for folder in folders)
 
@@ -165,8 +162,8 @@ def stored(tmp_path_factory):
     return folder
 
 
-def test_the_command_draws_what_is_named(stored, tmp_path, show):
-    done = show(stored / "a.nc", "-o", tmp_path / "p", "--figures", "integrals,contact", "--ball", "fast")
+def test_the_command_draws_what_is_named(stored, tmp_path):
+    done = command("show", stored / "a.nc", "-o", tmp_path / "p", "--figures", "integrals,contact", "--ball", "fast")
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in (tmp_path / "p").iterdir()) == ["contact.svg", "integrals.svg"]
 

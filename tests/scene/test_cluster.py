@@ -129,10 +129,7 @@ def test_workers_with_another_chapsym_are_one_sentence(two, path, monkeypatch):
 
 @pytest.mark.parametrize(
     ("address", "words"),
-    [
-        ("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9"),
-        ("nonsense://x", "is no address of a Dask"),
-    ],
+    [("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9"), ("nonsense://x", "is no address of a")],
 )
 def test_a_scheduler_that_is_not_there_is_one_sentence_and_leaves_all_as_it_was(path, monkeypatch, address, words):
     monkeypatch.setattr(jobs, "REACHED", 1.0)

@@ -21,10 +21,6 @@ CUT = [slice(0, 10), slice(10, 101)]
 COLUMNS = ("momentum", "gamma", "attitude", "contact")
 
 
-def with_model(plan, model):
-    return replace(plan, model=model)
-
-
 @pytest.fixture
 def homogeneous():
     rng = np.random.default_rng(6)
@@ -49,7 +45,7 @@ def test_steady_rotation_is_the_map(homogeneous):
     plan = planned(homogeneous, Task(COLUMNS, steps, 999))
     assert plan.model.name == Steady.name
     direct, end = rolled(plan, [slice(0, 10), slice(10, plan.frames)])
-    stepped, also = rolled(with_model(plan, Rolling()))
+    stepped, also = rolled(replace(plan, model=Rolling()))
     assert (end["taken"] == also["taken"]).all()
     for name in COLUMNS:  # the steps' roundings add up: an ulp a step at most
         length = 1 if name in ("gamma", "attitude") else np.abs(stepped[name]).max()
@@ -58,7 +54,7 @@ def test_steady_rotation_is_the_map(homogeneous):
 
 def test_a_steady_ball_beyond_its_fold_stops_at_once(homogeneous):
     plan = planned(replace(homogeneous, momentum=40 * homogeneous.momentum), Task(COLUMNS, 10))
-    columns, state = rolled(with_model(plan, Steady()))
+    columns, state = rolled(replace(plan, model=Steady()))
     assert (state["status"] != Status.TAKEN).any()
     stopped = state["status"] != Status.TAKEN
     assert (state["taken"] == np.where(stopped, 0, 10)).all()
@@ -94,7 +90,7 @@ def test_vertical_momentum_is_the_map(vertical):
     plan = planned(vertical, Task(("momentum", "gamma"), steps, 3))
     assert plan.model.name == Vertical.name
     reduced, end = rolled(plan, [slice(0, 100), slice(100, plan.frames)])
-    stepped, also = rolled(with_model(plan, Rolling()))
+    stepped, also = rolled(replace(plan, model=Rolling()))
     assert (end["taken"] == also["taken"]).all()
     for name in ("momentum", "gamma"):  # both drift along the curve, by some roundings a step
         assert np.abs(reduced[name] - stepped[name]).max() <= 10 * steps * EPS
@@ -237,7 +233,7 @@ def test_a_given_attitude_is_that_of_the_first_frame(homogeneous, tops):
         plan = planned(replace(members, attitude=attitude), Task(("attitude",), 100_000_000, 50_000_000))
         assert plan.model.name in (Steady.name, Top.name)
         for model in (plan.model, Rolling()):
-            start, _ = rolled(with_model(replace(plan, task=Task(("attitude",), 5, 5)), model))
+            start, _ = rolled(replace(plan, task=Task(("attitude",), 5, 5), model=model))
             assert np.abs(start["attitude"][:, 0] - attitude).max() < EPS * 2
 
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from budget import slow
 from commands import answer, chapsym, refused
+from motion_reference import matrix
 
 from benchmarks.rolling import make
 from chapsym.studies.judge import Case, angle, carried, convergence, departure, read_case, sentence, summary
@@ -94,20 +95,13 @@ def test_a_speed_that_is_one_per_cent_higher_is_told_in_energy_momentum_and_slip
     speed = case.radius * np.linalg.norm(case.omega[:, :2], axis=-1)
     np.testing.assert_allclose(found["slip"], speed / 100, rtol=1e-11)
     # mv²/2 grows by 2.01 %, of an energy of which it is a part; mρ|v| by 1 % of a momentum that has the spin, too
-    rows = _matrices(case.attitude)
+    rows = matrix(case.attitude)
     spin = np.einsum("fij,j,fkj,fk->fi", rows, case.inertia, rows, case.omega)
     carried = spin + case.mass * case.radius**2 * case.omega * [1, 1, 0]
     energy = (case.omega * carried).sum(axis=-1)[0] / 2
     np.testing.assert_allclose(found["energy"], 2.01 * case.mass * speed**2 / 2 / energy, rtol=1e-9)
     whole = np.linalg.norm(carried[0])
     np.testing.assert_allclose(found["momentum"], case.mass * case.radius * speed / whole, rtol=1e-9)
-
-
-def _matrices(q):
-    """By the formula of the quaternion, apart from the code's."""
-    w, u = q[:, 0, None, None], q[:, 1:]
-    cross = np.cross(np.eye(3), u[:, None, :])  # rows: e_i × u
-    return (2 * w**2 - 1) * np.eye(3) + 2 * u[:, :, None] * u[:, None, :] + 2 * w * cross
 
 
 def test_an_attitude_and_its_negative_are_one_and_velocities_may_be_left_out(case, table, tmp_path):
@@ -231,14 +225,8 @@ def test_files_that_are_none_are_refused_in_one_sentence(table, tmp_path):
     other = tmp_path / "other.json"
     sliding = json.loads((DATA / "sliding.json").read_text("utf-8"))
     del sliding["frames"][7]["velocity"]
-    for content in (
-        "{}",
-        "[]",
-        '{"case": "a", "ball": {"mass": "1/0"}}',
-        "[" * 100000,
-        json.dumps(sliding),
-        json.dumps(sliding | {"frames": ["contact"]}),
-    ):
+    texts = ["{}", "[]", '{"case": "a", "ball": {"mass": "1/0"}}', "[" * 100000]
+    for content in (*texts, json.dumps(sliding), json.dumps(sliding | {"frames": ["contact"]})):
         other.write_text(content, encoding="utf-8")
         assert "is no case" in refused("judge", own, "--against", other)
     assert "cannot be read: No such file" in refused("judge", own, "--against", tmp_path / "none.json")

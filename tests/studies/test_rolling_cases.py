@@ -14,6 +14,7 @@ import sympy as sp
 from budget import slow
 from commands import answer
 from flint import arb, arb_poly, ctx
+from motion_reference import matrix
 from scipy.integrate import solve_ivp
 from vectors import cross
 
@@ -29,11 +30,6 @@ from chapsym.studies.judge import carried, read_case
 
 EXAMPLES = DATA.parent / "examples"
 UP = np.array([0.0, 0.0, 1.0])
-
-
-def matrix(q):
-    w, u = q[0], np.asarray(q[1:])
-    return (2 * w * w - 1) * np.eye(3) + 2 * np.outer(u, u) + 2 * w * np.cross(np.eye(3), u)
 
 
 def turning(q, omega):
