@@ -86,6 +86,8 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["step", "--inertia", "1,1,3", *STEP[3:]], "no body has the inertia 1,1,3"),
         (["step", "--inertia", "1,.1,0;.1,1,0;0,0,3", *STEP[3:]], "no body has the inertia (1.1, 0.9, 3)"),
         (["step", "--inertia", "6,1,0;2,5,0;0,0,3", *STEP[3:]], "a symmetric tensor, not one with I12 = 1 and I21 = 2"),
+        (["step", "--inertia", "6,0,0;0,5,1;0,2,3", *STEP[3:]], "a symmetric tensor, not one with I23 = 1 and I32 = 2"),
+        (["step", "--inertia", "6,5,3", "--mass", "0", "--radius", "1", *STEP[5:]], "--mass and --radius must be posi"),
         (["step", "--inertia", "6,1,0;1,5", *STEP[3:]], "3 principal moments, or the 9 components of a tensor; '6,1"),
         (["step", "--inertia", TENSOR, *STEP[3:], "--digits", "20"], "kept in principal axes only: give the principal"),
         (["branches", "--inertia", TENSOR, *STEP[3:]], "this command takes principal axes only: give its principal"),
