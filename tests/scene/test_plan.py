@@ -138,6 +138,22 @@ def test_what_an_output_is_made_of_is_there(name):
     assert timed(name) == any(part.startswith(("s", "J", "W")) for part in units.split())
 
 
+@pytest.mark.parametrize("name", [name for name, one in OUTPUTS.items() if one.derive])
+def test_a_derived_output_is_that_of_another_formula(name):
+    """One that has no row here has no value that was compared with anything."""
+    J, D, momentum, g = np.array([1.0, 2.0, 4.0]), 3.0, np.array([0.5, -0.25, 0.75]), np.array([2.0, 3.0, 6.0]) / 7
+    angular = np.array([3.0, 1.0, -2.0])
+    omega = np.linalg.solve(np.diag(J.sum() - J) + D * (np.eye(3) - np.outer(g, g)), angular)
+    vertical, squared = momentum @ g, momentum @ momentum
+    meant = {
+        "omega": omega, "energy": omega @ angular / 2, "angular_momentum": angular, "discrete_momentum": momentum,
+        "integrals": [vertical, squared, 1], "vertical_momentum": vertical, "momentum_squared": squared,
+        "gamma_squared": 1,
+    }  # fmt: skip
+    found = OUTPUTS[name].derive(J, np.array(D), {K: angular, "momentum": momentum, "gamma": g, "omega": omega})
+    np.testing.assert_allclose(found, meant[name], rtol=1e-14)
+
+
 def test_an_output_is_added_by_one_record(members, monkeypatch):
     """⟨ω,γ⟩, which models are not known to: its unit, its columns, and that it needs times, are of its record."""
     spin = Output(
