@@ -21,7 +21,7 @@ from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
 from chapsym.dynamics.loops.double_double import FIRST
 from chapsym.dynamics.map import MOST_STEPS as MOST_FRAMES
-from chapsym.dynamics.map import time_limit, whole_number
+from chapsym.dynamics.map import time_limit, until, whole_number
 from chapsym.dynamics.results import some_frames
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, in_words, pairs
 
@@ -400,7 +400,8 @@ def accurate(
     attitude : bool or array_like, optional
         True or a unit quaternion, (4,), to be followed; its angle counts, too.
     limit : float, optional
-        Seconds after which it is given up, or before it begins if it is expected to take longer; by default 600.
+        Seconds after which it stops at its next report of progress, by default 600; it does not begin if it is
+        expected to take longer.
     progress : callable, optional
         Called with a sentence on the method before each attempt, and on its progress.
 
@@ -435,15 +436,8 @@ def accurate(
 
 def answered(request: Request, limit: float, progress: Callable[[str], None]) -> Accurate:
     """`accurate` of a request."""
-    started, until = clock.thread_time(), clock.monotonic() + time_limit(limit)
+    started, say = clock.thread_time(), until(limit, progress)
     problem, choice = _foreseen(request, limit)
-
-    def say(text: str) -> None:
-        """Passes on a sentence, until the limit."""
-        if clock.monotonic() > until:
-            raise BadInput(f"stopped at the limit of {limit:g} s: {text}; ask for less accuracy or time, or raise it")
-        progress(text)
-
     say(choice.sentence())
     attempts: list[Attempt] = []
     if problem is not None:

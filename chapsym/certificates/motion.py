@@ -10,6 +10,7 @@ from flint import arb
 from chapsym import checker
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.enclosed_motion import CertifiedMotion
+from chapsym.dynamics.errors import LimitReached
 from chapsym.dynamics.flow.start import Principal, Start, balls
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.levels.start import fraction
@@ -24,6 +25,8 @@ KIND = "motion"
 GUARD, MORE, MOST = 48, 1.5, 512
 #: The largest denominator of a number of the start that is written as a quotient, and the known bits that this needs.
 SIMPLE, KNOWN = 10**18, 512
+#: What a user can do.
+LESS = "ask for less time or fewer digits"
 
 
 def check_start(start: Start, frames: int) -> None:
@@ -42,7 +45,8 @@ def motion(
     """The certificate of the frames from a start, accepted by the checker.
 
     The checker tries increasing bits, as it loses some bits per turn, more for a ball with unequal moments.  Raises
-    BadInput if it accepts none with MOST bits beyond those of the digits, or in `limit` s, and as `check_start`.
+    BadInput if it accepts none with MOST bits beyond those of the digits, LimitReached if it has accepted none after
+    `limit` s, and as `check_start`.
     """
     check_start(start, len(found.times))
     digits, until = math.ceil(found.digits * math.log2(10)), time.monotonic() + limit
@@ -55,15 +59,16 @@ def motion(
         except checker.Rejected as error:
             bits, why = math.ceil(MORE * bits), str(error)
         except TimeoutError:
-            why = f"with {bits} bits it had not ended at the limit"
-            break
+            raise LimitReached(
+                f"the checker had not ended at the limit, with {bits} bits; raise it, or {LESS}"
+            ) from None
         else:
             return data
-    raise BadInput(f"the checker proves too few digits of this motion, ask for less time or fewer digits: {why}")
+    raise BadInput(f"the checker proves too few digits of this motion, {LESS}: {why}")
 
 
 def _check(data: Document, seconds: float) -> None:
-    """Judges a certificate, in a process that ends with the time if this is limited: raises TimeoutError then."""
+    """Judges a certificate; where the seconds are limited in a process that ends with them: raises TimeoutError."""
     if seconds == math.inf:
         checker.check(data)
         return

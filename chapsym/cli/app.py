@@ -126,8 +126,10 @@ def main() -> NoReturn:
         quiet()
         fail(NO_MEMORY if no_room else str(error), 2)
     except _foreseen() as error:
+        from chapsym.dynamics.errors import LimitReached
+
         quiet()
-        fail(str(error), 2)
+        fail(str(error), 1 if isinstance(error, LimitReached) else 2)
 
 
 def _hear() -> None:

@@ -35,7 +35,7 @@ Output = Annotated[Path | None, writes("FILE", "Write the certificate there.")]
 
 Digits = Annotated[int | None, takes("N", "Decimals; as many as needed by default.")]
 Radius = Annotated[str | None, takes("R", "How far parameters may be off; the largest power of 10.")]
-Limit = Annotated[float, takes("S", "Seconds after which the search stops.")]
+Limit = Annotated[float, takes("S", "Seconds after which the search stops, at its next report of progress.")]
 
 
 def _ball(given: Mapping[str, str | None], D: str, J: str = "1,2,4") -> tuple[Any, Fraction]:
@@ -339,20 +339,12 @@ def _deliver(
     """Finds a certificate with its progress on standard error, writes it, and prints what the checker says of it."""
     from chapsym import checker, files
     from chapsym.certificates.document import write
-    from chapsym.dynamics.map import time_limit
+    from chapsym.dynamics.map import until
 
     if output is not None:
         files.check_destination(output)
-    until = time.monotonic() + time_limit(limit)
     with telling() as progress:
-
-        def going(what: str) -> None:
-            """Passes on a sentence, until the limit."""
-            if time.monotonic() > until:
-                fail(f"stopped at the limit of {limit:g} s: {what}; give more by --limit", 1)
-            progress(what)
-
-        found = search(*given, **options, progress=going)
+        found = search(*given, **options, progress=until(limit, progress))
     if output is not None:
         write(output, found)
     if as_json:

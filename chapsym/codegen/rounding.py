@@ -116,11 +116,29 @@ def count(kernel: Kernel, function: Callable[..., Any], point: Sequence[Fraction
 
 
 def bounds(function: Callable[..., Any], *arguments: float) -> list[float]:
-    """Upper bounds of the error of each result of a kernel in float64, which calls no functions, for these arguments.
+    """Upper bounds of the error of each result of a kernel in float64, for these arguments.
 
-    inf if a divisor is too near to 0 for the lemma, if something may over- or underflow, or beyond 256 roundings.
-    Raises ValueError for an argument that is not finite.
+    Parameters
+    ----------
+    function : callable
+        A kernel of `chapsym.generated`, or of another register, that calls no functions.
+    *arguments : float
+        The arguments of the kernel, one number each.
 
+    Returns
+    -------
+    list of float
+        A bound for each result; inf if a divisor is too near to 0 for the lemma, if something may over- or underflow,
+        or for more than 256 roundings.
+
+    Raises
+    ------
+    ValueError
+        For an argument that is not finite.
+
+    Examples
+    --------
+    >>> from chapsym.codegen.rounding import bounds
     >>> from chapsym.generated import rotate
     >>> max(bounds(rotate, 0.5, 0.5, 0.5, 0.5, 0.1, 0.2, 0.3)) < 1e-15
     True

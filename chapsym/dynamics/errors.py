@@ -22,6 +22,10 @@ class BadInput(ValueError):
     """
 
 
+class LimitReached(BadInput):
+    """There is no result at the limit in seconds; the message says what was reached."""
+
+
 class Status(IntEnum):
     """How a step ended, for each ball of a batch.
 

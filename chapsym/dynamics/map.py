@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -17,7 +18,7 @@ from chapsym.numbers.precisions import is_whole
 from .attitudes import first_attitudes
 from .ball import Ball, Floats, brief, callback, flag, in_shape, is_followed, numbers
 from .coefficients import substeps
-from .errors import BadInput
+from .errors import BadInput, LimitReached
 from .levels import dispatch
 from .levels.frames import Balls, Frames, given
 from .levels.start import exponent_of, fraction
@@ -371,6 +372,19 @@ def time_limit(value: float) -> float:
     if np.ndim(found) or not found > 0:
         raise BadInput(f"limit must be a positive number of seconds, not {brief(value)}")
     return float(min(found, MOST_STEPS))
+
+
+def until(limit: float, progress: Callable[[str], None]) -> Callable[[str], None]:
+    """`progress`, which after `limit` seconds raises LimitReached with the sentence that it is given."""
+    limit = time_limit(limit)
+    end = time.monotonic() + limit
+
+    def going(text: str) -> None:
+        if time.monotonic() > end:
+            raise LimitReached(f"stopped at the limit of {limit:g} s: {text}; ask for less, or raise the limit")
+        progress(text)
+
+    return going
 
 
 def step_numbers(index: ArrayLike) -> np.ndarray:

@@ -142,8 +142,7 @@ def test_a_free_top_is_followed_and_a_ball_at_rest_stays_to_any_accuracy():
 
 def test_a_run_ends_at_its_limit(monkeypatch):
     """A limit holds for what takes longer than expected, too, here by a clock that is at it at once."""
-    ticks = chain((0,), count(5))
-    monkeypatch.setattr(answer, "clock", SimpleNamespace(thread_time=lambda: 0.0, monotonic=ticks.__next__))
+    monkeypatch.setattr("chapsym.dynamics.map.time", SimpleNamespace(monotonic=chain((0,), count(5)).__next__))
     with pytest.raises(BadInput, match=r"stopped at the limit of 6 s: double-double, extrapolated to order .*%; ask"):
         asked(1e-20, limit=6)
 

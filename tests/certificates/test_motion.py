@@ -151,7 +151,7 @@ def test_what_is_proved_is_written_where_the_checker_reaches_the_limit(tmp_path,
     output = tmp_path / "motion.json"
     # The motion has all of the limit, and the checker what is left: no time, so that its process is ended at once.
     monkeypatch.setattr(certify, "time", SimpleNamespace(monotonic=iter((0, 1e9)).__next__))
-    with pytest.raises(BadInput, match="fewer digits: with 82 bits it had not ended at the limit"):
+    with pytest.raises(BadInput, match="the checker had not ended at the limit, with 82 bits; raise it, or ask"):
         certify.motion(scene(tmp_path), 10, certificate=tmp_path / "certificate.json", output=output)
     assert capsys.readouterr().err.count("the checker tries") == 1
     assert len(read(output)["frames"]) == 3
@@ -161,4 +161,6 @@ def test_what_is_proved_is_written_where_the_checker_reaches_the_limit(tmp_path,
 def test_a_search_ends_at_its_limit_with_what_was_reached(search):
     done = command("certify", search, "--limit", "1e-9")
     assert done.returncode == 1
-    assert re.fullmatch(r"chapsym: stopped at the limit of 1e-09 s: .+; give more by --limit\n", done.stderr)
+    assert re.fullmatch(
+        r"chapsym: stopped at the limit of 1e-09 s: .+; ask for less, or raise the limit\n", done.stderr
+    )

@@ -1,4 +1,4 @@
-"""The level l = 1/Λ₂ in numbers: the map by (4.13), what orbits gain between their ends, and levels beside it.
+"""The level l = 1/Λ₂ in numbers: the map by (4.13), what orbits gain between their ends, and levels near it.
 
 Those of thorough runs are of the formulas alone, and of nothing that chapsym computes.
 """

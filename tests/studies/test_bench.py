@@ -243,7 +243,7 @@ SLOW = {"goals", "work-precision"}
 def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
     monkeypatch.setattr(long, "QUICK", (2000, 2))
     monkeypatch.setattr(plans, "BATCH", 20)
-    monkeypatch.setattr(results, "interleaved", lambda sides, rounds, *told: harness.interleaved(sides, 1, *told))
+    monkeypatch.setattr(results, "interleaved", lambda sides, rounds, *more: harness.interleaved(sides, 1, *more))
     said = []
     found = benchmarks.run(section, True, said.append)
     data = json.loads(json.dumps(command.plain({section: found}, True), allow_nan=False))

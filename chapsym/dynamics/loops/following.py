@@ -484,12 +484,8 @@ def follow_lanes(B, frames, balls, asked, weights, outcome, reported, interval, 
                 aimed(lanes[b], kept, interval)
                 resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], bodies[b], states[b])
             elif fate == STOPS:
-                outcome.status[i], outcome.reach[i], outcome.taken[i], done = (
-                    int(lanes[b, STATUS]),
-                    lanes[b, REACH],
-                    frame - 1,
-                    True,
-                )
+                outcome.status[i], outcome.reach[i] = int(lanes[b, STATUS]), lanes[b, REACH]
+                outcome.taken[i], done = frame - 1, True
                 stopped_at(i, frame, frames)
             elif fate == STAYS:
                 taken_out(S, b, now)
