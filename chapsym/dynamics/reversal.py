@@ -4,6 +4,7 @@ The map is reversible (lemma `reversible`): with ϱ(𝒦, γ) = (-𝒦, γ), ϱ�
 with the attitude and the contact point.  So no step needs an inverse: the way back is a run of the map.
 """
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -57,7 +58,7 @@ class NotRetraced(ArithmeticError):
         return type(self), (self.index, self.balls, self.trajectory)
 
 
-def reverse(run: Trajectory) -> Trajectory:
+def reverse(run: Trajectory, *, progress: Callable[[int], None] = lambda steps_done: None) -> Trajectory:
     """The way back: the trajectory from the end of `run`, with the momentum reversed, to its start.
 
     `retrace_error` gives its distance from the run.  The largest measured one was 2⁻⁵³·√(2·stages)·(1 + growth), where
@@ -68,6 +69,8 @@ def reverse(run: Trajectory) -> Trajectory:
     ----------
     run : Trajectory
         A run of `trajectory` or `trajectory_n`, for one ball or a batch, in float32 or float64.
+    progress : callable, optional
+        As for `trajectory`.
 
     Returns
     -------
@@ -105,7 +108,8 @@ def reverse(run: Trajectory) -> Trajectory:
     attitude = False if run.attitude is None else run.attitude[last]
     traced, start = run.contact is not None, (-run.momentum[last], run.gamma[last])
     go: Any = partial(trajectory, time_step=run.time_step, precision=run.precision) if three else trajectory_n
-    back = go(run.ball, *start, steps, order=run.order, every=every, attitude=attitude, contact=traced)
+    go = partial(go, order=run.order, every=every, attitude=attitude, contact=traced, progress=progress)
+    back = go(run.ball, *start, steps)
     if traced:
         back.contact[...] += run.contact[..., -1:, :]
     strayed = _strayed(run, retrace_error(run, back)) if three else []

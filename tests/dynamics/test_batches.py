@@ -1,8 +1,10 @@
 """Batches: blocks and threads take the same steps as one ball alone, to the bit; so does the compiled code."""
 
+from functools import partial
+
 import numpy as np
 import pytest
-from crowds import alone, balls, beyond, floats_of, long_steps
+from crowds import alone, balls, beyond, floats_of, long_steps, seeded
 from plain import in_plain_python
 
 import chapsym
@@ -134,12 +136,37 @@ def test_threads_and_chunks_change_nothing(precision, options, monkeypatch):
         assert np.array_equal(a, b, equal_nan=True)
 
 
-def test_progress_counts_the_steps_of_all_balls():
-    ball, K, g = balls(130)
+BALLS, STATES, VERTICALS = seeded(130, 3.0)
+#: Functions that may be long, and all that they have to do: steps, lines or balls.
+LONG = {
+    "trajectory": (partial(chapsym.trajectory, BALLS, STATES, VERTICALS, 4000), 130 * 4000),
+    "reverse": (partial(chapsym.reverse, chapsym.trajectory(BALLS, 0.01 * STATES, VERTICALS, 4000)), 130 * 4000),
+    "trajectory_vertical": (
+        partial(chapsym.trajectory_vertical, Ball([(1, 2, 4)] * 3, [0, 1, 0]), 1e-3, (0.6, 0.8, 0), 300_000), 900_000,
+    ),
+    "follow": (partial(chapsym.follow, BALLS, np.stack([0 * STATES, STATES, 9 * STATES], 1), VERTICALS), 260),
+    "fold": (partial(chapsym.fold, BALLS, STATES, VERTICALS), 130),
+    "margin": (partial(chapsym.margin, BALLS, STATES, VERTICALS), 130),
+    "branches": (partial(chapsym.branches, Ball((1, 2, 4), 3), [(9, 0, 0), *[(1, 0, 0)] * 1199], (0, 0, 1)), 1200),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LONG)
+def test_progress_ascends_to_all_that_there_is_to_do_and_may_end_it(name):
+    run, all_of_it = LONG[name]
     seen = []
-    chapsym.trajectory(ball, K, g, 50, progress=seen.append)
-    assert seen[-1] == 130 * 50
+    run(progress=seen.append)
+    assert len(seen) > 1
     assert seen == sorted(seen)
+    assert seen[-1] == all_of_it
+    with pytest.raises(BadInput, match="progress must be a function"):
+        run(progress=1)
+
+    def interrupt(done):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(progress=interrupt)
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)

@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike
 import chapsym.dynamics.native as native
 from chapsym.numbers import NAMED
 
-from ..ball import Ball, Floats, batch, common_shape, in_shape, numbers, unit_vertical
+from ..ball import Ball, Floats, batch, callback, common_shape, in_shape, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels import dispatch, double
-from ..levels.frames import Balls, Frames
+from ..levels.frames import Balls, Frames, after
 from ..loops import loop, vertical_loop
 from ..map import MOST_STEPS, whole_number
 from ..results import Step, finished
@@ -114,7 +114,13 @@ def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
 
 @np.errstate(over="ignore", under="ignore", invalid="ignore")
 def trajectory_vertical(
-    ball: Ball, height: ArrayLike, gamma: ArrayLike, steps: int, *, every: int = 1
+    ball: Ball,
+    height: ArrayLike,
+    gamma: ArrayLike,
+    steps: int,
+    *,
+    every: int = 1,
+    progress: Callable[[int], None] = lambda steps_done: None,
 ) -> VerticalTrajectory:
     """Takes `steps` steps of the reduced map G_h and keeps every `every`-th γ.
 
@@ -128,6 +134,8 @@ def trajectory_vertical(
         The number of steps.
     every : int, optional
         The number of steps from one frame to the next.
+    progress : callable, optional
+        Called with the steps done so far, of all balls together.
 
     Returns
     -------
@@ -152,9 +160,10 @@ def trajectory_vertical(
     [0.579783, -0.178334, 0.795015]
     """
     steps, every = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1)
+    callback(progress)
     every = min(every, steps + 1)
     shape, given = _flat(ball, height, gamma)
-    frames = _taken(given, steps, every)
+    frames = _taken(given, steps, every, progress=progress)
     h, *ends = (in_shape(shape, x) for x in (given[3], frames.gamma, frames.taken, frames.status))
     return finished(VerticalTrajectory(ball, h, np.arange(steps // every + 1) * every, *ends), frames.reach)
 
@@ -167,30 +176,47 @@ def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, .
     return shape, [flat, J, D, np.broadcast_to(h, shape).reshape(-1).copy()]
 
 
-def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) -> Frames:
+def _taken(
+    given: list[Floats],
+    steps: int,
+    every: int,
+    rotation: bool = False,
+    progress: Callable[[int], None] = lambda steps_done: None,
+) -> Frames:
     """Steps of every ball, by the closed form if it holds; rotation: of one step, as the attitude of frame 1."""
     g, J, D, h = given
     precision, still = NAMED["double"], [1.0, 0.0, 0.0, 0.0] if rotation else None
     balls = Balls(h[:, np.newaxis] * g, g, J, D, np.zeros(len(D)))
     frames = dispatch.begun(precision, balls, steps // every + 1, still)
     march = native.loop(vertical_loop.march)
-    others = [i for i in range(len(D)) if D[i] != 0.0 or not _closed(march, g[i], J[i], h[i], steps, every, frames, i)]
+    others: list[int] = []
+    for i in range(len(D)):
+        here = after(steps * (i - len(others)), progress)
+        if D[i] != 0.0 or not _closed(march, given, i, steps, every, frames, here):
+            others.append(i)
     if others:
         some = Balls(*(x[others] for x in vars(balls).values() if x is not None))
         full = dispatch.begun(precision, some, steps // every + 1, still)
-        double.run(some, steps, every, full, 2, 1, lambda done: None)
+        double.run(some, steps, every, full, 2, 1, after(steps * (len(D) - len(others)), progress))
         for name in ("gamma", "attitude", "taken", "status", "reach"):
             getattr(frames, name)[others] = getattr(full, name)
     return frames
 
 
 def _closed(
-    march: Callable[..., bool], g: Floats, J: Floats, h: float, steps: int, every: int, frames: Frames, i: int
+    march: Callable[..., bool],
+    given: list[Floats],
+    i: int,
+    steps: int,
+    every: int,
+    frames: Frames,
+    progress: Callable[[int], None],
 ) -> bool:
     """Whether the closed form takes every step of the ball i, whose D is 0, into its frames.
 
     Lemma `small-branch`: if there is a radius, a root with |q| < q₀ is the root of the small-rotation branch.
     """
+    g, J, _, h = (x[i] for x in given)
     ball, q = np.empty(loop.ROWS), np.zeros(4)
     loop.entered((float(h), 0.0, 0.0), g, J, 0.0, ball)
     k, inertia, state = ball[loop.K], ball[loop.I : loop.D], np.array([*g, 0.0, 0.0, 0.0, 0.0])
@@ -200,6 +226,7 @@ def _closed(
         count = min(double.CHUNK, steps - first)
         if not march(state, inertia, k, first, count, every, frames.gamma[i], q):
             return False
+        progress(first + count)
     frames.taken[i] = steps
     if frames.with_body:
         frames.attitude[i, 1] = q / np.sqrt(q @ q)

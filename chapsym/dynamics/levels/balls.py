@@ -24,7 +24,6 @@ from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 
 from flint import arb, arb_mat, ctx, fmpq
 from mpmath import MPContext, mpf
@@ -41,7 +40,7 @@ from ..loops.gibbs import BEYOND, certificate, newton_round
 from ..loops.integrals import WEIGHTS
 from ..loops.path import joined
 from ..loops.vectors import adjoint, cross, dot, minus, scaled
-from .frames import Balls, Frames
+from .frames import Balls, Frames, after
 from .proved_root import MATRIX_BITS, Vector, certified, enclosed, inverse_slope, on_path, refined, stretch, unit, upper
 from .start import Exact, exponent_of, fraction, least, magnitude, start
 
@@ -74,7 +73,7 @@ def run(
     done, selected = 0, list[int]()
     for i in range(len(balls.D)):
         given = _given(balls, i, frames, order)
-        way = _Way(frames, i, steps, every, partial(lambda before, step: progress(before + step), done))
+        way = _Way(frames, i, steps, every, after(done, progress))
         if isinstance(precision, Enclosure):
             selected.append(_enclosed(precision, given, way))
         else:

@@ -94,6 +94,11 @@ class Count:
             self._progress(self._done)
 
 
+def after(before: int, progress: Callable[[int], None]) -> Callable[[int], None]:
+    """The progress of a part that begins when `before` are done."""
+    return lambda done: progress(before + done)
+
+
 def cores() -> int:
     """The cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

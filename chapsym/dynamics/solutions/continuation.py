@@ -9,6 +9,7 @@ fold: the system is regular if the fold is simple.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import prod
 
@@ -17,8 +18,9 @@ from numpy.typing import ArrayLike
 
 from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
 
-from ..ball import UNIT_TOLERANCE, Ball, Floats, batch, largest_moment, numbers, over_states, unit_vertical
+from ..ball import UNIT_TOLERANCE, Ball, Floats, batch, callback, largest_moment, numbers, over_states, unit_vertical
 from ..errors import BadInput, Status
+from ..levels.frames import after
 from ..loops.branch import CONTRACTION, ROUNDINGS, SETTLED, SINGULAR, SMALLEST, UNIT_ROUNDOFF
 from ..shown import Brief
 
@@ -97,7 +99,14 @@ class Followed(Brief):
 
 
 @np.errstate(all="ignore")  # an overflow does not converge: `status` reports it
-def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> Followed:
+def follow(
+    ball: Ball,
+    path: ArrayLike,
+    gamma: ArrayLike,
+    rotation: ArrayLike = (1.0, 0.0, 0.0, 0.0),
+    *,
+    progress: Callable[[int], None] = lambda lines_done: None,
+) -> Followed:
     """Continues the rotation with the first momentum of a path along straight lines from each momentum to the next.
 
     A line that takes more than 5000 steps, as it may for very unlike moments, ends as NOT_CONVERGED.
@@ -113,6 +122,8 @@ def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = 
     rotation : array_like, optional
         A solution of (5.2) for the first momentum, shape (..., 4): by default the identity, which has the momentum 0.
         All broadcast with the balls.
+    progress : callable, optional
+        Called after each step with the lines that have ended so far, of all balls together.
 
     Returns
     -------
@@ -135,6 +146,7 @@ def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = 
     >>> chapsym.Status(found.status).name, round(float(found.reach), 6)
     ('FOLDED', 1.8)
     """
+    callback(progress)
     points = numbers(path, "path", 3)
     if points.ndim < 2 or points.shape[-2] < 2:
         raise BadInput(f"path must have the shape (..., m, 3) with at least 2 momenta, not {points.shape}")
@@ -150,7 +162,7 @@ def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = 
     for k in range(m - 1):
         on = np.flatnonzero(status == Status.TAKEN)
         part = marchers.only(on)
-        t, status[on] = part.march(K[on, k], K[on, k + 1])
+        t, status[on] = part.march(K[on, k], K[on, k + 1], after((k + 1) * n - len(on), progress))
         marchers.q[on], reach[on] = part.q, k + t
         arrived = on[status[on] == Status.TAKEN]
         rotations[arrived, k + 1] = marchers.q[arrived]
@@ -167,7 +179,14 @@ def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = 
 
 
 @np.errstate(over="ignore", under="ignore")
-def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Fold:
+def fold(
+    ball: Ball,
+    momentum: ArrayLike,
+    gamma: ArrayLike,
+    rotation: ArrayLike | None = None,
+    *,
+    progress: Callable[[int], None] = lambda balls_done: None,
+) -> Fold:
     """The fold of a branch along t𝒦: the largest t to which the branch can be continued, and the rotation there.
 
     There always is a fold, as |𝒦| ≤ 2Λmax for every rotation; if `follow` does not converge before it, reach is NaN.
@@ -183,6 +202,8 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
     rotation : array_like, optional
         A solution of (5.2) for 𝒦, shape (..., 4), which is continued from t = 1 upwards; by default the small rotation,
         from t = 0.
+    progress : callable, optional
+        Called after each step with the balls whose branch has ended so far.
 
     Returns
     -------
@@ -216,12 +237,19 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
         raise BadInput("the ball or its momentum is too near to the range of float64 for a fold; take other units")
     path = np.stack([start[:, np.newaxis] * flat, end[:, np.newaxis] * (flat / size[:, np.newaxis])], axis=1)
     turn = (1.0, 0.0, 0.0, 0.0) if rotation is None else rotation
-    found = follow(ball, path.reshape(*shape, 2, 3), gamma, turn).fold
+    found = follow(ball, path.reshape(*shape, 2, 3), gamma, turn, progress=progress).fold
     reach = start + found.reach.reshape(-1) * (end / size - start)
     return Fold(reach.reshape(shape), found.rotation, found.settled)
 
 
-def margin(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Floats:
+def margin(
+    ball: Ball,
+    momentum: ArrayLike,
+    gamma: ArrayLike,
+    rotation: ArrayLike | None = None,
+    *,
+    progress: Callable[[int], None] = lambda balls_done: None,
+) -> Floats:
     """The relative increase of the momentum at which the branch of a state folds: t - 1 for the fold at t𝒦.
 
     Parameters
@@ -233,6 +261,8 @@ def margin(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLik
     gamma : array_like
         Unit verticals upwards, shape (..., 3).
     rotation : array_like, optional
+        As for `fold`.
+    progress : callable, optional
         As for `fold`.
 
     Returns
@@ -251,7 +281,7 @@ def margin(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLik
     >>> round(float(chapsym.margin(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1))), 6)
     89.0
     """
-    return fold(ball, momentum, gamma, rotation).reach - 1
+    return fold(ball, momentum, gamma, rotation, progress=progress).reach - 1
 
 
 def _upright(q: Floats) -> Floats:
@@ -291,8 +321,11 @@ class Marchers:
         """Whether the tangent Jacobian is regular."""
         return np.abs(np.linalg.det(self.tangent())) > SINGULAR
 
-    def march(self, A: Floats, B: Floats) -> tuple[Floats, np.ndarray]:
-        """Continues from A to B; returns the fraction t of the way and a status for each."""
+    def march(self, A: Floats, B: Floats, progress: Callable[[int], None]) -> tuple[Floats, np.ndarray]:
+        """Continues from A to B; returns the fraction t of the way and a status for each.
+
+        progress: called after each step with the number of those that have ended.
+        """
         A, E, end = self._way(A, B)
         n = len(self.D)
         t, status = np.zeros(n), np.full(n, Status.NOT_CONVERGED, dtype=np.int64)
@@ -314,6 +347,7 @@ class Marchers:
             status[on[moved & (ahead == end[on])]] = Status.TAKEN
             status[on[folded]] = Status.FOLDED
             on = on[moved & (ahead < end[on])]
+            progress(n - len(on))
         return t / end, status
 
     def _longest(self, K: Floats, E: Floats) -> tuple[Floats, Floats]:

@@ -9,13 +9,14 @@ solutions, is counted exactly (`precise_branches`): float64 numbers are rational
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Ball, Floats, batch, largest_moment, numbers, unit_vertical
+from ..ball import Ball, Floats, batch, callback, largest_moment, numbers, unit_vertical
 from ..errors import Status
 from ..map import flag, step
 from ..shown import Brief
@@ -78,7 +79,14 @@ class Branches(Brief):
 
 
 @np.errstate(all="ignore")  # an overflow is no root
-def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool = True) -> Branches:
+def branches(
+    ball: Ball,
+    momentum: ArrayLike,
+    gamma: ArrayLike,
+    *,
+    settle: bool = True,
+    progress: Callable[[int], None] = lambda balls_done: None,
+) -> Branches:
     """All rotations Ω with 𝒦(q, γ) = 𝒦 (5.2): the branches of the map.
 
     Parameters
@@ -92,6 +100,8 @@ def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool 
     settle : bool, optional
         Whether a ball that float64 does not settle is counted exactly, in about 0.1 s, or about 10 s if components of
         its moments or momentum have ratios of 10¹⁰⁰; otherwise it is not complete, and its rotations are a guess.
+    progress : callable, optional
+        Called with the balls done so far: after each 1024, and after each that is counted exactly.
 
     Returns
     -------
@@ -115,6 +125,7 @@ def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool 
     >>> found.angle[:4].round(6).tolist()
     [0.253599, 2.95257, 3.01505, 3.026705]
     """
+    callback(progress)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     n = len(D)
     found = Branches(
@@ -124,9 +135,12 @@ def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool 
     for first in range(0, n, CHUNK):
         part = slice(first, first + CHUNK)
         _solve(found, part, K[part], g[part], J[part], D[part])
+        progress(int(found.complete.sum()))
     if flag(settle, "settle"):
-        for i in np.flatnonzero(~found.complete):
+        left = np.flatnonzero(~found.complete)
+        for done, i in enumerate(left, n - len(left) + 1):
             _settle(found, i, K[i], g[i], J[i], D[i])
+            progress(done)
     _mark_small(found, K, g, J, D)
     return Branches(*(x.reshape((*shape, *x.shape[1:])) for x in vars(found).values()))
 
