@@ -50,10 +50,8 @@ for work in (
     done = run(*work)
     assert done.returncode == 0, done.stderr
     print(done.stdout.splitlines()[-1])
-for name in ("", "prove", "report", "codegen", "step", "branches", "scene", "run", "show", "check", "certify", "trade",
-             "extremes", "study", "bench"):  # fmt: skip
-    done = run(*filter(None, [name]), "--help")
-    assert (done.returncode, done.stderr) == (0, ""), (name, done.stderr)
+done = run("--help")  # the tests ask each command
+assert (done.returncode, done.stderr) == (0, ""), done.stderr
 for extra, arguments in ABSENT.items():
     done = run(*arguments)
     assert (done.returncode, done.stdout) == (2, ""), (arguments, done.stdout)

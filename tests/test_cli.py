@@ -333,7 +333,7 @@ main()
 CHECK, PROVE = ["check", "--states", "1"], ["prove", *TWO]
 
 
-@pytest.mark.parametrize(("command", "name"), [(CHECK, "INT"), (PROVE, "HUP"), *slow((CHECK, "TERM"), (PROVE, "INT"))])
+@pytest.mark.parametrize(("command", "name"), [(CHECK, "INT"), *slow((CHECK, "TERM"), (PROVE, "INT"), (PROVE, "HUP"))])
 def test_an_interrupt_is_told_and_ends_the_command(command, name):
     """Sent to all processes of the command, as a terminal does, or a scheduler."""
     with subprocess.Popen(

@@ -79,6 +79,7 @@ def test_ends_that_are_one_are_not_told_apart_forever(monkeypatch):
         heteroclinic(top(), starts=(Fraction(2), Fraction(1, 2)))
 
 
+@pytest.mark.thorough
 def test_other_starts_and_more_digits():
     found = heteroclinic(top(), starts=(Fraction(3, 2), Fraction(1, 5)), digits=30, radius=Fraction(0))
     assert [one["start"] for one in found["orbits"]] == ["3/2", "1/5"]

@@ -4,6 +4,7 @@ import json
 from fractions import Fraction
 
 import pytest
+from budget import slow
 from certificate_changes import committed
 from commands import answer, chapsym, child, refused
 from flint import ctx
@@ -39,7 +40,8 @@ def displacements(found):
     return [Fraction(orbit["displacement"]) for orbit in found["orbits"]]
 
 
-@pytest.mark.parametrize("name", [name for name in COMMITTED if name != "measure-simplest"])  # which the command finds
+#: The command finds the simplest one.
+@pytest.mark.parametrize("name", ["measure-real-ball", *slow("measure-large")])
 def test_the_committed_certificates_are_what_is_found(name, capsys):
     ball, arguments = COMMITTED[name]
     found = no_invariant_measure(top(**ball), **arguments)
@@ -92,6 +94,7 @@ def test_secants_find_the_end_of_a_plateau_and_stop_where_there_is_none():
         assert plateau.end_of_plateau(Reduced(top()), same, (0, 1, 2), Fraction(1), 9, 128) == same[1]
 
 
+@pytest.mark.thorough  # the first axis is found by all others
 def test_circles_around_the_axis_of_the_largest_moment():
     """Where those around the other axis have the larger displacement, only a level says that these are meant."""
     around = plateau.staircases(top(), 23, lambda what: None)[1]
@@ -119,6 +122,7 @@ def test_a_level_outside_of_the_plateau_is_refused(side):
     assert displacements(inside)[0] > 0 > displacements(inside)[1]
 
 
+@pytest.mark.thorough
 def test_without_contact_both_displacements_are_one_number():
     """The control: D = 0 is refused; towards it the displacement goes to 0 as D²."""
     with pytest.raises(BadInput, match="for D = 0 there is nothing to find"):

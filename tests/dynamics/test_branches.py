@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
-from budget import examples
+from budget import examples, slow
 from commands import chapsym as run
 from commands import refused
 from crowds import seeded
@@ -281,9 +281,9 @@ def test_a_batch_is_its_balls():
     assert branches(Ball((1, 2, 4), 3), np.ones((0, 3)), (0, 0, 1)).count.shape == (0,)
 
 
-def test_extremes_of_float64():
-    gamma = (0.0, 0.6, 0.8)
-    found = branches(Ball((1, 2, 4), 1e300), (1e-300, 0, 1e-300), gamma)
+@pytest.mark.parametrize("large", [1e100, *slow(1e300)])
+def test_extremes_of_float64(large):
+    found = branches(Ball((1, 2, 4), large), (1 / large, 0, 1 / large), (0.0, 0.6, 0.8))
     assert (found.complete, found.count) == (True, 4)
 
 

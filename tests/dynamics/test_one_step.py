@@ -6,6 +6,7 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
+from budget import slow
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
@@ -157,7 +158,7 @@ def test_a_small_rotation_is_enclosed_beside_itself(size):
     assert max(x.rad() for x in q) <= max(abs(x.mid()) for x in q) * 2.0**-56
 
 
-@pytest.mark.parametrize("precision", [Digits(1), Enclosure(60)], ids=str)
+@pytest.mark.parametrize("precision", [Digits(1), *slow(Enclosure(60))], ids=str)
 def test_a_fold_far_from_the_momentum_is_found_in_few_steps(precision, monkeypatch):
     """On a thousand digits it was sought to the last of them, for 5 to 17 seconds."""
     monkeypatch.setattr(branch, "MOST_STEPS", 400)
