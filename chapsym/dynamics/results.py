@@ -345,8 +345,9 @@ class Trajectory:
 
         Its dimensions are `ball`, a single one for all axes of a batch, and `frame`; `chapsym.Result` draws and writes
         it.  `momentum` is K in kg m² s⁻¹ for the motion (`roll`), and 𝒦 in kg m² for the map, as its unit shows.
-        Beyond float64 the numbers are those of the precision.  With `proved=True` there are bounds (ball, frame), such
-        as `gamma_bound`; in double-double it bounds the error of `gamma` + `gamma_low`.
+        Beyond float64 the numbers are objects of the precision, which xarray itself cannot write.  With `proved=True`
+        there are bounds (ball, frame), such as `gamma_bound`; in double-double it bounds the error of `gamma` +
+        `gamma_low`.
 
         Returns
         -------

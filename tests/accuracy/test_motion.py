@@ -287,16 +287,18 @@ def test_what_rounding_of_the_start_does_is_in_the_estimate(inertia, D, omega, e
 
 
 def test_near_unstable_rotations_the_estimate_is_above_the_error(thorough):
-    """Of 402 the error is .35 of the estimate, so that a third of it would be seen; the steps of 798 are alike.
+    """Of 402 the error is .35 of the estimate, so that a third of it would be seen.
 
+    The steps of 798 are alike: the error is .19 of the estimate, and would be .48 if their roundings did not add up.
     The heavy 962 starts where a rounding of K moves ω the least: with that of all steps it was 1.6 times its estimate.
     All but 402 are judged in double-double alone, which the certified motion confirms in `thorough`: it takes a hundred
     times as long.
     """
-    light, heavy = (range(3000), range(300)) if thorough else ((0, 402, 798), (20, 44, 962))
+    light, heavy = (range(3000), range(300)) if thorough else ((0, 402), (20, 44, 962))
     parts = [unstable_starts.part(seed, certify=thorough or seed == 402) for seed in light]
     parts += [unstable_starts.part(seed, heavy=True, certify=thorough) for seed in heavy]
     assert 1 / 3 < max(parts) < 1
+    assert unstable_starts.part(798, certify=thorough) < 1 / 3
 
 
 @pytest.mark.parametrize(("seed", "heavy"), [(2580, False), (513, True)])
