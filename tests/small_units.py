@@ -23,14 +23,14 @@ from chapsym.scene.running import sweep
 
 BALLS, STEPS, EVERY = 10, 210, 10
 #: Units of work: enough that some balls are done, some begun and some not begun.
-UNITS, PART = 9, 5
+UNITS, PART = 6, 3
 #: All outputs, and some: a store takes the time of its arrays.
 OUTPUTS = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals")
 SOME = ("momentum", "gamma")
 
 
 class SmallUnits(plans.Plan):
-    """Three chunks of balls, three segments of frames; the last ones are shorter."""
+    """Three chunks of balls, two segments of frames; the last ones are shorter."""
 
     @property
     def chunks(self):
@@ -38,7 +38,7 @@ class SmallUnits(plans.Plan):
 
     @property
     def segments(self):
-        return [slice(i, min(i + 9, self.frames)) for i in range(0, self.frames, 9)]
+        return [slice(i, min(i + 13, self.frames)) for i in range(0, self.frames, 13)]
 
 
 def members(n=BALLS):
@@ -56,7 +56,7 @@ def members(n=BALLS):
 
 
 def plan(outputs=SOME, scene="", steps=STEPS, seed=7, n=BALLS):
-    """Three times three units of 4 balls and 9 frames."""
+    """Three times two units of 4 balls and 13 frames."""
     whole = planned(members(n), Task(outputs, steps, EVERY, 0.01))
     return replace(
         SmallUnits(whole.members, whole.task, whole.model, whole.needed, whole.refused), scene=scene, seed=seed
@@ -114,8 +114,8 @@ if __name__ == "__main__":
     calls, real = iter(range(UNITS)), sweep.advance
 
     def advance(*args, **kwargs):
-        """The real one, slower; after two units none is begun."""
-        time.sleep(0.03 if next(calls) < 2 else GUARD)
+        """The real one, slower; after one unit none is begun."""
+        time.sleep(GUARD if next(calls) else 0.03)
         return real(*args, **kwargs)
 
     sweep.advance = advance

@@ -362,13 +362,6 @@ def test_an_interrupted_sweep_shows_the_balls_that_have_run():
     assert figures.draw(waiting, "rotation").axes[0].get_title() == ""
 
 
-def test_decimal_strings_are_drawn_as_the_numbers_they_are():
-    dataset = results.bowling(10, outputs=("contact",))
-    expected = dataset["contact"].values[0, :, 0]
-    dataset["contact"] = dataset["contact"].astype(str)
-    assert (lines(figures.draw(dataset, "contact").axes[0])[0].get_xdata() == expected).all()
-
-
 @pytest.mark.parametrize("dataset", [lambda: results.bowling(0), lambda: results.batch(30, 0, 1)], ids=["one", "many"])
 def test_a_result_of_one_frame_is_drawn(dataset):
     data = dataset()
@@ -404,13 +397,6 @@ def test_the_same_result_gives_the_same_bytes_whatever_the_user_has_set(tmp_path
     for one, other in zip(first, second, strict=True):
         assert one.read_bytes() == other.read_bytes(), one.name
     assert b"<dc:date>" not in first[0].read_bytes()
-
-
-def test_large_results_and_long_runs_make_small_files(tmp_path, thorough):
-    for dataset in (results.bowling(20_000), *([results.batch(1200, 200, 5)] if thorough else [])):
-        sizes = {path.stem: path.stat().st_size for path in figures.save_all(dataset, tmp_path)}
-        assert len(sizes) >= 6
-        assert max(sizes.values()) < 1_000_000, sizes
 
 
 def test_a_folder_that_cannot_be_is_one_sentence(tmp_path):

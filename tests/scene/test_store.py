@@ -62,7 +62,7 @@ def mended(path, whole):
 
 @contextmanager
 def child(path):
-    """A process that runs the plan, two units of it, and is killed in the end."""
+    """A process that runs the plan, one unit of it, and is killed in the end."""
     with subprocess.Popen([*CHILD, str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
         try:
             assert running.stdout.readline() == "ready\n", running.stderr.read()
@@ -317,7 +317,7 @@ def test_what_a_killed_process_wrote_after_its_mark_is_no_damage(whole, path):
 
 def test_a_complete_store_that_is_mended_may_be_interrupted(whole, path):
     interrupted(path, UNITS)
-    (path / "gamma/c/2/2/0").unlink()
+    (path / "gamma/c/2/1/0").unlink()
     interrupted(path, 0)
     assert not opened(path).attrs["complete"]
     mended(path, whole)
@@ -336,7 +336,7 @@ def test_a_run_that_is_killed_goes_on_and_has_the_same_bits(whole, tmp_path, see
     chance, states = random.Random(seed), set()
     for attempt in range(0 if thorough else 1, 4 if thorough else 2):
         before = marked(path)
-        with child(path) as running:  # some units are left after four of them
+        with child(path) as running:  # some units are left after four of these
             if attempt:  # later ones after they have done something; the first while it makes the store, or soon after
                 until(lambda before=before: marked(path) != before, running)
                 for fresh in (False, True):
