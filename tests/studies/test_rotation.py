@@ -2,7 +2,9 @@
 
 import json
 from fractions import Fraction
+from inspect import signature
 from math import gcd
+from pkgutil import resolve_name
 
 import numpy as np
 import pytest
@@ -12,7 +14,6 @@ import chapsym
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.closed.elliptic import Curve, increment
 from chapsym.dynamics.closed.vertical import step_vertical
-from chapsym.files import CannotWrite
 from chapsym.studies import checkout
 from research import rotation
 from research.rotation import average, digits, displacement, plateau, staircase
@@ -27,6 +28,10 @@ LEVELS = [
     (*BALL, "243/1000"), (*BALL, "3/20"), ((4, 1, 2), 1, "12/5", "4/25"), ((2, 4, 1), 7, "12/5", "48/500"),
     ((0, 1, 10), "1/2", "3/2", "1/5"), ((1, 2, 4), 0, "12/5", "27/100"), ((3, 1, 2), 50, "3", "187/10000"),
 ]  # fmt: skip
+
+
+#: The study in the documentation.
+PUBLISHED = json.loads((checkout.ROOT / "docs/open/rotation.json").read_text("utf-8"))
 
 
 @pytest.fixture
@@ -238,56 +243,28 @@ def test_every_unit_is_plain_data_and_the_full_study_has_more():
         assert len(section) <= len(full[name])
         for unit in section:
             assert json.loads(json.dumps(unit.arguments)) == unit.arguments
-
-
-@pytest.fixture(scope="module")
-def small():
-    """A study of one or two units a section, in this process."""
-    from research.units import Unit, compute
-
-    planned = units(True)
-    cut = {"fifth": 2, "turns": 1, "small_D": 3, "farey": 2}
-    found = {
-        name: [
-            compute(u.function, u.arguments, u.key)
-            for u in (Unit(x.function, small_arguments(x)) for x in section[: cut.get(name)])
-        ]
-        for name, section in planned.items()
-    }
-    return rotation.assembled(found, True)
-
-
-def small_arguments(unit):
-    less = {"counts": [32, 64, 128], "digits": 20} if unit.function.endswith("convergence") else {}
-    less |= {"points": 4, "steps": 20} if unit.function.endswith("row") else {}
-    less |= {"fractions": [[1, 5]]} if unit.function.endswith("plateaus") else {}
-    less |= {"samples": 32} if unit.function.endswith("displacement") else {}
-    less |= {"digits": [15, 30]} if unit.function.endswith("times") else {}
-    less |= {"points": 20, "steps": 50} if unit.function.endswith("curve") else {}
-    return {**unit.arguments, **less}
+            signature(resolve_name(unit.function)).bind(**unit.arguments)
+    unmade = rotation.study(True, lambda planned: [unit.arguments for unit in planned])
+    assert set(unmade) == set(PUBLISHED)
+    assert set(unmade["staircase"]["top"]) >= {"plateaus"}
 
 
 @pytest.mark.thorough  # of every figure of results it is seen in tests/report/test_figures.py
-def test_the_figures_are_drawn_the_same_twice(small, tmp_path):
-    small = json.loads(json.dumps(small, allow_nan=False))
-    written = checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
-    assert [x.name for x in written] == [
-        f"rotation-{x}.svg" for x in ("staircase", "displacement", "widths", "digits", "numbers")
-    ]
-    assert all(x.read_bytes().startswith(b"<?xml") for x in written)
-    first = [x.read_bytes() for x in written]
-    again = checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
-    assert [x.read_bytes() for x in again] == first
-    with pytest.raises(CannotWrite, match="does not exist"):
-        checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path / "nowhere")
+def test_the_figures_are_drawn_the_same_twice(tmp_path):
+    for folder in (tmp_path / "one", tmp_path / "two"):
+        folder.mkdir()
+        checkout.save_figures("research.rotation", rotation.DRAWN, PUBLISHED, folder)
+    assert {one.name for one in (tmp_path / "one").iterdir()} == set(rotation.CAPTIONS)
+    for one in (tmp_path / "one").iterdir():
+        assert one.read_bytes() == (tmp_path / "two" / one.name).read_bytes()
 
 
-def test_the_sentences_say_what_locks(small):
-    words = rotation.sentences(small)
+def test_the_sentences_say_what_locks():
+    words = rotation.sentences(PUBLISHED)
     assert any("zero but for rounding" in x for x in words)
     assert any("D = 1, h = 12/5, 1/9 half turns, 60 digits: the displacement reaches 1.4e-28" in x for x in words)
     assert any("kicked by 1/100 sin 2φ: the displacement reaches 1.4e-17: it locks" in x for x in words)
-    assert any("(resonance tongues at fixed h) measured: 8, each of positive width" in x for x in words)
+    assert any("(resonance tongues at fixed h) measured: 247, each of positive width" in x for x in words)
 
 
 @pytest.mark.parametrize("quick", [True, False])
