@@ -18,7 +18,7 @@ from chapsym.studies import checkout
 from research import rotation
 from research.rotation import average, digits, displacement, plateau, staircase
 from research.rotation.circle import Level, number
-from research.rotation.plan import units
+from research.rotation.plan import fractions, units
 from research.rotation.relation import Relation
 
 BALL = ((1, 2, 4), 1, "12/5")
@@ -236,17 +236,32 @@ def test_what_is_no_level_or_step_is_said(arguments, sentence):
         Level(*arguments).displacement(0, 3, 0)
 
 
-def test_every_unit_is_plain_data_and_the_full_study_has_more():
+def exactly(x):
+    return [Fraction(one) for one in x] if isinstance(x, list) else Fraction(x)
+
+
+def test_every_unit_is_plain_data_and_those_of_the_full_study_are_published():
     quick, full = units(True), units(False)
-    assert list(quick) == list(full)
-    for name, section in quick.items():
-        assert len(section) <= len(full[name])
+    for name, section in full.items():
+        assert 0 < len(quick[name]) <= len(section)
         for unit in section:
             assert json.loads(json.dumps(unit.arguments)) == unit.arguments
             signature(resolve_name(unit.function)).bind(**unit.arguments)
+    for name in full.keys() - {"staircase", "times"}:
+        for unit, made in zip(full[name], PUBLISHED[name], strict=True):
+            for key in unit.arguments.keys() & made.keys() & {"tensor", "D", "height", "steps"}:
+                assert exactly(unit.arguments[key]) == exactly(made[key])
     unmade = rotation.study(True, lambda planned: [unit.arguments for unit in planned])
     assert set(unmade) == set(PUBLISHED)
     assert set(unmade["staircase"]["top"]) >= {"plateaus"}
+
+
+def test_the_published_staircase_is_that_of_its_levels():
+    ball = PUBLISHED["staircase"]["ball"]
+    some = slice(50, None, 200)
+    found = staircase.rotation_numbers(ball["tensor"], 0.5, 0.7, ball["levels"][some], 600)
+    np.testing.assert_allclose(found, ball["rotation_numbers"][some], atol=1e-7)
+    assert fractions(7, 0.2, 0.4) == [(1, 3), (1, 4), (2, 7)]
 
 
 @pytest.mark.thorough  # of every figure of results it is seen in tests/report/test_figures.py
