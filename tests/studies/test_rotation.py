@@ -256,11 +256,11 @@ def test_every_unit_is_plain_data_and_those_of_the_full_study_are_published():
     assert set(unmade["staircase"]["top"]) >= {"plateaus"}
 
 
-def test_the_published_staircase_is_that_of_its_levels():
-    ball = PUBLISHED["staircase"]["ball"]
-    some = slice(50, None, 200)
-    found = staircase.rotation_numbers(ball["tensor"], 0.5, 0.7, ball["levels"][some], 600)
-    np.testing.assert_allclose(found, ball["rotation_numbers"][some], atol=1e-7)
+def test_the_published_staircase_has_the_ends_of_a_short_one():
+    planned, published = units(False)["staircase"][0].arguments, PUBLISHED["staircase"]["ball"]
+    found = staircase.curve(**planned | {"points": 2, "steps": 600})
+    for name in ("levels", "rotation_numbers"):
+        np.testing.assert_allclose(found[name], np.array(published[name])[[0, -1]], atol=1e-6)
     assert fractions(7, 0.2, 0.4) == [(1, 3), (1, 4), (2, 7)]
 
 
