@@ -28,7 +28,7 @@ from chapsym.scene.plan.plan import plan_from
 from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
 
-SCENE = f"""{BALL.replace("[3.0,", "[{ linspace = [3.0, 200.0, 25] },")}time_step = 0.01
+SCENE = f"""{BALL.replace("[3.0,", "[{ linspace = [3.0, 200.0, 17] },")}time_step = 0.01
 steps = 200
 every = 10
 outputs = ["momentum", "contact", "energy"]
@@ -78,7 +78,7 @@ def test_two_workers_have_the_bits_of_one_machine(local, two, path):
     assert outcome.complete
     equal_to_the_bit(formats.load(path).load(), local)
     assert outcome.failed == (local.status.values != 0).sum() > 0
-    assert seen[-1].balls == 25
+    assert seen[-1].balls == 17
     assert seen[-1].steps == seen[-1].of
     assert [p.steps for p in seen] == sorted(p.steps for p in seen)
 
@@ -93,7 +93,7 @@ def test_a_run_goes_on_from_a_cluster_to_one_machine(local, two, path):
         sweep.run_to_store(plan_from(SCENE), path, two, report=end)
     found = formats.load(path)
     assert found.attrs["complete"] is False
-    assert 8 <= (found.taken.values != -1).sum() < 25
+    assert 8 <= (found.taken.values != -1).sum() < 17
     assert sweep.run_to_store(plan_from(SCENE), path).complete
     equal_to_the_bit(formats.load(path).load(), local)
 
@@ -190,8 +190,8 @@ def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, mon
         "from chapsym.scene.running import sweep\nplan.CHUNK, models.Rolling.unit_steps = 4, 400\n"
         "def advance(plan, chunk, *rest, real=sweep.advance):\n"
         f"    died = Path({str(tmp_path / 'died')!r})\n"
-        "    if chunk.start == 12 or (chunk.start == 24 and not died.exists()):\n"
-        "        died.touch() if chunk.start == 24 else None\n"
+        "    if chunk.start == 12 or (chunk.start == 16 and not died.exists()):\n"
+        "        died.touch() if chunk.start == 16 else None\n"
         "        os._exit(1)\n"
         "    return real(plan, chunk, *rest)\nsweep.advance = advance\n"
     )
@@ -212,7 +212,7 @@ def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, mon
             assert (tmp_path / "died").exists()
             found = formats.load(path).load()
             assert found.attrs["complete"] is False
-            assert (found.taken.values == -1).tolist() == [12 <= i < 16 for i in range(25)]
+            assert (found.taken.values == -1).tolist() == [12 <= i < 16 for i in range(17)]
 
             def end(progress):
                 if progress.balls >= 8:

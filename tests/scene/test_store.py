@@ -12,7 +12,6 @@ import warnings
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib.resources import files
-from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -133,15 +132,11 @@ DAMAGES = [
     ("gamma/c/0/0/0", cut), ("mass_tensor/c/0/0", Path.unlink), ("momentum/c/0/0/0", another("momentum/c/0/1/0")),
     ("D/c/0", another("radius/c/0")), ("taken/c/0", emptied), ("gamma/c/0/0/0", turned),
 ]  # fmt: skip
-MORE = [
-    *product(("gamma/c/0/0/0", "taken/c/0", "mass_tensor/c/0/0"), (cut, emptied, turned, Path.unlink)),
-    ("gamma/c/0/0/0", another("momentum/c/0/0/0")),
-]
 
 
 @pytest.mark.parametrize(("after", "place", "damage"), [
     *((UNITS, *one) for one in DAMAGES[:4]), *((PART, *one) for one in DAMAGES[4:]),
-    *slow(*((after, *one) for after in (UNITS, PART) for one in DAMAGES + MORE)),
+    *slow(*((after, *one) for after in (UNITS, PART) for one in DAMAGES)),
 ])  # fmt: skip
 def test_a_chunk_that_is_lost_or_damaged_is_found_and_computed_anew(whole, path, after, place, damage):
     interrupted(path, after)

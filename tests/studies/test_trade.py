@@ -195,7 +195,3 @@ def test_an_estimate_is_told_as_one_with_the_digits_it_is_about(capsys):
     assert "at most" not in words
     assert "off by 4.0e-09 (m), estimated" in words
     assert words.endswith("angular_momentum 0.0639508  20  (not compared)\ncontact   -249.562570746  0.100000000\n")
-    answer.request.of = "state"
-    print_answer(answer, SimpleNamespace(axes=None, place=None))
-    words = capsys.readouterr().out
-    assert words.endswith("angular_momentum 0.06395079  20.00000000\ncontact   -249.563  0.1  (not compared)\n")
