@@ -1,5 +1,8 @@
 """The figures of a result: what is drawn is what was computed, and what is missing is said."""
 
+import re
+from pathlib import Path
+
 import matplotlib
 import numpy as np
 import pytest
@@ -167,6 +170,38 @@ def test_the_components_of_one_ball_share_a_panel_and_those_of_several_have_thei
         (median,) = lines(panel)
         assert median.get_ydata() == pytest.approx(np.median(many["omega"].values[..., i], axis=0))
         assert len(panel.collections) == 3
+
+
+def test_the_slip_is_drawn_in_metres_per_second():
+    slip = 3e-3 * np.sin(np.arange(21.0))
+    (axis,) = figures.draw(results.bowling(20).assign(slip=(("ball", "frame"), slip[np.newaxis])), "slip").axes
+    assert lines(axis)[0].get_ydata() * 1e-3 == pytest.approx(slip)
+    assert axis.get_ylabel() == "slip, 10⁻³ m s⁻¹"
+
+
+#: The test that compares each kind of figure with numbers that it computes itself.
+COMPARED = {
+    "contact": "test_figures.test_the_trace_of_one_ball_is_its_contact_point_in_metres_with_its_ends_and_direction",
+    "spheres": "test_spheres.test_what_is_drawn_is_an_orthogonal_projection_of_the_directions",
+    "spread": "test_figures.test_the_spread_is_the_distance_from_the_mean_in_logarithms_if_it_grows_exponentially",
+    "rotation": "test_figures.test_the_rotation_number_is_drawn_over_what_was_varied",
+    "phase": "test_figures.test_the_phase_and_its_increments_where_a_constant_looks_constant",
+    "slip": "test_figures.test_the_slip_is_drawn_in_metres_per_second",
+    "omega": "test_figures.test_the_components_of_one_ball_share_a_panel_and_those_of_several_have_their_own",
+    "attitude": "test_spheres.test_the_body_axes_in_space_are_those_of_the_attitude",
+    "energy": "test_figures.test_the_energy_is_drawn_as_its_relative_change",
+    "integrals": "test_figures.test_a_change_at_roundoff_is_drawn_in_a_range_of_twenty_ulps_and_a_real_drift_is_seen",
+}
+
+
+def test_each_kind_of_figure_is_compared_with_numbers():
+    assert COMPARED.keys() == figures.kinds().keys()
+    for kind, place in COMPARED.items():
+        file, name = place.split(".")
+        text = Path(__file__).with_name(f"{file}.py").read_text(encoding="utf-8")
+        body = text.partition(f"\ndef {name}(")[2].partition("\n\n\n")[0]
+        assert f'"{kind}"' in body, place
+        assert re.search(r"get_[xy]?data\(|get_offsets\(|vertices", body), place
 
 
 def test_thinning_out_loses_no_spike():
@@ -362,6 +397,13 @@ def test_an_interrupted_sweep_shows_the_balls_that_have_run():
     assert figures.draw(waiting, "rotation").axes[0].get_title() == ""
 
 
+def test_decimal_strings_are_drawn_as_the_numbers_they_are():
+    dataset = results.bowling(10, outputs=("contact",))
+    expected = dataset["contact"].values[0, :, 0]
+    dataset["contact"] = dataset["contact"].astype(str)
+    assert (lines(figures.draw(dataset, "contact").axes[0])[0].get_xdata() == expected).all()
+
+
 @pytest.mark.parametrize("dataset", [lambda: results.bowling(0), lambda: results.batch(30, 0, 1)], ids=["one", "many"])
 def test_a_result_of_one_frame_is_drawn(dataset):
     data = dataset()
@@ -397,6 +439,14 @@ def test_the_same_result_gives_the_same_bytes_whatever_the_user_has_set(tmp_path
     for one, other in zip(first, second, strict=True):
         assert one.read_bytes() == other.read_bytes(), one.name
     assert b"<dc:date>" not in first[0].read_bytes()
+
+
+@pytest.mark.thorough  # that long lines are thinned out is seen above
+def test_large_results_and_long_runs_make_small_files(tmp_path):
+    for dataset in (results.bowling(20_000), results.batch(1200, 200, 5)):
+        sizes = {path.stem: path.stat().st_size for path in figures.save_all(dataset, tmp_path)}
+        assert len(sizes) >= 6
+        assert max(sizes.values()) < 1_000_000, sizes
 
 
 def test_a_folder_that_cannot_be_is_one_sentence(tmp_path):

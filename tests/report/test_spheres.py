@@ -161,6 +161,17 @@ def test_a_small_orbit_is_in_front_and_a_great_circle_is_never_seen_from_its_edg
         assert shortest > 0.15 * longest  # 0.19 of 2000 is the least
 
 
+def test_what_is_drawn_is_an_orthogonal_projection_of_the_directions():
+    dataset = results.bowling(50)
+    for axis, name in zip(figures.draw(dataset, "spheres").axes, ("gamma", "momentum"), strict=True):
+        behind, front = (np.array(line.get_xydata()) for line in axis.lines if len(line.get_xdata()) == 51)
+        drawn = np.where(np.isfinite(front), front, behind)
+        directions = unit(dataset[name].values[0])
+        screen, *_ = np.linalg.lstsq(directions, drawn, rcond=None)
+        assert directions @ screen == pytest.approx(drawn, abs=1e-12)
+        assert screen.T @ screen == pytest.approx(np.eye(2), abs=1e-6)
+
+
 def test_many_balls_are_a_cloud_in_the_colour_of_time():
     dataset = results.batch(50, 200, 1)
     gamma, _, bar = figures.draw(dataset, "spheres").axes
