@@ -87,12 +87,16 @@ typedef struct { r1 first, allowed, most, start; } Asked;
 typedef struct { r2 tensor; r1 contact, radius; } Balls;
 typedef struct { i1 taken, status; d1 reach; } Ends;
 typedef struct { r3 momenta, verticals, attitudes, traces; int follows, traced; } Frames;
+typedef struct { r1 state; r2 limits, past; r1 attitude, contact; real radius; } Moving;
 typedef struct { real w, m, rest, shift, curved; } Root;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { real a0, a1, a2; } t_r3;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8; } t_r9;
 typedef struct { t_r4 p; t_r3 w; real first; t_r3 d; t_r9 cofactors; } Round;
 typedef struct { real h; int64_t first, steps, every; } Run;
+typedef struct { r1 c; r3 weights; } Stages;
+typedef struct { int64_t first, last, every; } Steps;
+typedef struct { r2 momenta, verticals, attitudes, traces; int follows; } Track;
 typedef struct { r2 sums; r3 following; r2 beginning; } Weights;
 typedef struct { real a0, a1; } t_r2;
 typedef struct { t_r2 a0, a1, a2, a3; } t_p4;
@@ -248,17 +252,18 @@ OUT_OF_LINE void integrals_remember(r1 state) {
     t_r2 t_3 = one.a2; state.p[16] = t_3.a0; state.p[17] = t_3.a1;
 }
 
-OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 c, r1 state, r1 radius, r1 enough) {
+OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 c, r1 state, r2 limits) {
     ALIGNED real part_[3]; r1 part = {part_, 3};
     for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
         if (c.p[i] != R(1.0)) {
             for (int64_t j = 0; j < 3; j++) { part.p[j] = c.p[i] * momentum.p[j]; }
-            loop_entered(part, g, tensor, contact, state); radius.p[i] = state.p[25]; enough.p[i] = state.p[26];
+            loop_entered(part, g, tensor, contact, state); AT2(limits, 0, i) = state.p[25];
+            AT2(limits, 1, i) = state.p[26];
         }
     }
     real scale = loop_entered(momentum, g, tensor, contact, state); integrals_remember(state);
     for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
-        if (c.p[i] == R(1.0)) { radius.p[i] = state.p[25]; enough.p[i] = state.p[26]; }
+        if (c.p[i] == R(1.0)) { AT2(limits, 0, i) = state.p[25]; AT2(limits, 1, i) = state.p[26]; }
     }
     return scale;
 }
@@ -809,30 +814,31 @@ INLINE void single_loop_follow_body(t_r4 p, t_r3 g, r1 attitude, r1 contact, rea
 }
 
 #endif
-INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 past, int64_t begun, int64_t first,
-    int64_t count, int64_t every, real scale, r2 momenta, r2 verticals, int with_body, r1 attitude, r1 contact, real
-    rho, r2 attitudes, r2 traces) {
-    int64_t stop, at, later, frame; t_r3 m, u; int settled; t_r4 p;
+INLINE t_i2r loop_march(Moving ball, Stages stages, Steps steps, int64_t begun, real scale, Track track) {
+    int64_t stop, at, later, frame; t_r3 m, u; int settled; t_r4 p; r1 state = ball.state; r2 past = ball.past;
+    r1 c = stages.c; r3 weights = stages.weights;
     t_r3 k = vectors_three(state, 0), g = vectors_three(state, 3), x = vectors_three(state, 6);
     t_r3 y = vectors_three(state, 9), inertia = vectors_three(state, 21);
-    int64_t stages = c.n0, places = weights.n1, period = max_i(1, div_i(1024, stages)), step = first, status = 0;
-    real reach = R(1.0); int64_t last = first + count;
-    while (step < last && status == 0) {
-        stop = min_i(min_i(last, step + every - mod_i(step, every)), step + period - mod_i(begun + step, period));
+    int64_t count = c.n0, places = weights.n1, period = max_i(1, div_i(1024, count)), step = steps.first, status = 0;
+    real reach = R(1.0);
+    while (step < steps.last && status == 0) {
+        stop = min_i(min_i(steps.last, step + steps.every - mod_i(step, steps.every)), step + period - mod_i(begun +
+            step, period));
         while (step < stop) {
-            at = mod_i((begun + step) * stages, places); later = (begun + step) * stages >= places ? 1 : 0;
-            for (int64_t i = 0, end_i = stages; i < end_i; i++) {
+            at = mod_i((begun + step) * count, places); later = (begun + step) * count >= places ? 1 : 0;
+            for (int64_t i = 0, end_i = count; i < end_i; i++) {
                 m = vectors_scaled(c.p[i], k); u = loop_guessed(past, at + i, r2_row(r3_row(weights, later), at + i));
-                t_b_r4__r3_ t_1 = gibbs_settle(u, m, g, inertia, state.p[24], radius.p[i], enough.p[i], 0);
+                t_b_r4__r3_ t_1 = gibbs_settle(u, m, g, inertia, state.p[24], AT2(ball.limits, 0, i), AT2(ball.limits,
+                    1, i), 0);
                 settled = t_1.a0; p = t_1.a1; u = t_1.a2;
                 if (!settled) {
-                    vectors_put(state, 0, m); vectors_put(state, 3, g); state.p[25] = radius.p[i];
-                    state.p[26] = enough.p[i]; t_ir_r4__r3_ t_2 = loop_safe_rotation(u, state); status = t_2.a0;
-                    reach = t_2.a1; p = t_2.a2; u = t_2.a3;
+                    vectors_put(state, 0, m); vectors_put(state, 3, g); state.p[25] = AT2(ball.limits, 0, i);
+                    state.p[26] = AT2(ball.limits, 1, i); t_ir_r4__r3_ t_2 = loop_safe_rotation(u, state);
+                    status = t_2.a0; reach = t_2.a1; p = t_2.a2; u = t_2.a3;
                     if (status != 0) { break; }
                 }
                 vectors_put(r2_row(past, at + i), 0, u); vectors_put(r2_row(past, places + at + i), 0, u);
-                if (with_body) { loop_follow_body(p, g, attitude, contact, rho); }
+                if (track.follows) { loop_follow_body(p, g, ball.attitude, ball.contact, ball.radius); }
                 t__r3_2 t_3 = integrals_turned(p, k, x); k = t_3.a0; x = t_3.a1;
                 t__r3_2 t_4 = integrals_turned(p, g, y); g = t_4.a0; y = t_4.a1;
             }
@@ -844,16 +850,16 @@ INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 pas
         if (status == 0 && mod_i(begun + step, period) == 0) {
             integrals_restore(state); x = vectors_three(state, 6); y = vectors_three(state, 9);
         }
-        if (status == 0 && mod_i(step, every) == 0) {
-            frame = div_i(step, every); vectors_put(r2_row(momenta, frame), 0, vectors_scaled(scale, k));
-            vectors_put(r2_row(verticals, frame), 0, g);
-            if (with_body) {
-                for (int64_t i = 0; i < 4; i++) { AT2(attitudes, frame, i) = attitude.p[i]; }
-                AT2(traces, frame, 0) = contact.p[0]; AT2(traces, frame, 1) = contact.p[1];
+        if (status == 0 && mod_i(step, steps.every) == 0) {
+            frame = div_i(step, steps.every); vectors_put(r2_row(track.momenta, frame), 0, vectors_scaled(scale, k));
+            vectors_put(r2_row(track.verticals, frame), 0, g);
+            if (track.follows) {
+                for (int64_t i = 0; i < 4; i++) { AT2(track.attitudes, frame, i) = ball.attitude.p[i]; }
+                AT2(track.traces, frame, 0) = ball.contact.p[0]; AT2(track.traces, frame, 1) = ball.contact.p[1];
             }
         }
     }
-    return (t_i2r){step - first, status, reach};
+    return (t_i2r){step - steps.first, status, reach};
 }
 
 INLINE void vectors_put_four(r1 array, int64_t at, t_r4 q) {
@@ -4080,12 +4086,12 @@ WIDER static void in_following_follow_alone(const argument *a, argument *got) {
 
 #else
 static void in_loop_prepare(const argument *a, argument *got) {
-    real out = loop_prepare(r1_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r1_(7)); got[0].number = out;
+    real out = loop_prepare(r1_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r2_(6)); got[0].number = out;
 }
 
 static void in_loop_march(const argument *a, argument *got) {
-    t_i2r out = loop_march(r1_(0), r1_(1), r3_(2), r1_(3), r1_(4), r2_(5), i_(6), i_(7), i_(8), i_(9), r_(10),
-        r2_(11), r2_(12), b_(13), r1_(14), r1_(15), r_(16), r2_(17), r2_(18));
+    t_i2r out = loop_march((Moving){r1_(0), r2_(1), r2_(2), r1_(3), r1_(4), r_(5)}, (Stages){r1_(6), r3_(7)},
+        (Steps){i_(8), i_(9), i_(10)}, i_(11), r_(12), (Track){r2_(13), r2_(14), r2_(15), r2_(16), b_(17)});
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2;
 }
 
@@ -4172,8 +4178,8 @@ const loop_export LOOPS()[] = {
     {"following_follow", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 i1* i1* d1* r2* r b", "", in_following_follow},
     {"following_follow_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 i1* i1* d1* r2* r b", "", in_following_follow_alone},
 #else
-    {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
-    {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
+    {"loop_prepare", "r1 r1 r1 r r1 r1* r2*", "r", in_loop_prepare},
+    {"loop_march", "r1* r2* r2* r1* r1* r* r1 r3 i i i i r r2* r2* r2* r2* b*", "iir", in_loop_march},
     {"loop_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_loop_advance_all},
     {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
     {"block_advance_blocks", "r2* r2* r2 r1 r2* i1* d1*", "", in_block_advance_blocks},
@@ -4194,6 +4200,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "e108bddc371c292627bfa08537bde71f6b32707fc211f96cbf33db293ece6b52";
+const char loops_text[] = "f37ba8ff80f1dfb8c84bb05c42d0ede8de4fb422f89ff7169b60efae30477f8f";
 #endif
 #endif

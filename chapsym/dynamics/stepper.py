@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import deepcopy
 from functools import partial
 from operator import attrgetter
 from typing import Any
@@ -15,13 +16,13 @@ from chapsym.numbers import NAMED
 
 from .attitudes import initial_attitude
 from .ball import Asked, Ball, Floats, batch, is_followed, is_unit, is_vector, numbers, unit_vertical
-from .coefficients import substeps
 from .errors import BadInput, Status, StepNotTaken
 from .levels import dispatch, double, double_double, proved
 from .levels.dispatch import no_room
 from .levels.frames import Balls
 from .loops import loop
 from .loops.loop import G, K
+from .loops.records import Moving, Steps, Track
 from .map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from .results import Bounds, Trajectory, finished
 
@@ -248,10 +249,11 @@ class Stepper(UnderWay):
         self._follows, self._traced = follows, traced
         self._J, self._D = ball.mass_tensor.copy(), float(ball.D)
         self._radius = float(rolling_radius(ball)) if traced else 0.0
-        self._stages = substeps(order).copy()
+        self._stages = double.staged(order, double.DOUBLE)
         self._march = double.DOUBLE.loop(loop.march)
         self._spin, self._spot = np.zeros(4), np.zeros(2)
         self._ends = self._frames(2)
+        self._track = self._tracked(self._ends)
         self._momentum, self._gamma = self._ends["momentum"][1], self._ends["gamma"][1]
         self._proof: Proof | None = None
 
@@ -289,9 +291,8 @@ class Stepper(UnderWay):
 
     def _go_on(self, momentum: ArrayLike) -> None:
         self._momentum[:] = momentum if is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
-        self._state, self._scale = double.begun(
-            self._momentum, self._gamma, self._J, self._D, double.DOUBLE, self._stages
-        )
+        state, self._scale = double.begun(self._momentum, self._gamma, self._J, self._D, double.DOUBLE, self._stages)
+        self._moving = Moving(*state, self._spin, self._spot, self._radius)
         self._taken, self._proof = 0, None
         self._start = [self._momentum.copy(), self._gamma.copy(), self._spin.copy(), self._spot.copy()]
 
@@ -339,7 +340,7 @@ class Stepper(UnderWay):
         done, status, reach = 0, 0, 1.0
         try:
             while done < steps and not status:
-                before = None if self.order == 2 else [x.copy() for x in self._moving()]
+                before = None if self.order == 2 else [x.copy() for x in self._arrays()]
                 went, status, reach = self._march_on(done, min(double.CHUNK, steps - done), every, frames)
                 if status:
                     status = self._stopped(status, before, partial(self._march_on, done, went, every, frames))
@@ -351,43 +352,45 @@ class Stepper(UnderWay):
         return done, status, reach
 
     def _march_on(self, first: int, count: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
-        momenta, verticals, attitudes, contacts = frames.values()
-        return self._march(
-            *self._state, self._taken - first, first, count, every, self._scale, momenta, verticals,
-            self._follows, self._spin, self._spot, self._radius, attitudes, contacts,
-        )  # fmt: skip
+        steps = Steps(first, first + count, every)
+        track = self._track if frames is self._ends else self._tracked(frames)
+        return self._march(self._moving, self._stages, steps, self._taken - first, self._scale, track)
+
+    def _tracked(self, frames: dict[str, Floats]) -> Track:
+        """The frames as the loop takes them."""
+        return Track(frames["momentum"], frames["gamma"], frames["attitude"], frames["contact"], self._follows)
 
     def _stopped(self, status: int, before: list[Floats] | None, again: Callable[[], object]) -> Status:
         """Why a step was not taken; the state is reset to the one before it, which a composition has left."""
-        state = self._state[0]
+        state = self._moving.state
         why = double.explained(status, self._scale * state[K : K + 3], state[G : G + 3], self._J, self._D)
         if before is not None:
-            for array, old in zip(self._moving(), before, strict=True):
+            for array, old in zip(self._arrays(), before, strict=True):
                 array[:] = old
             again()
         return why
 
-    def _moving(self) -> list[Floats]:
+    def _arrays(self) -> list[Floats]:
         """The arrays that the loop changes."""
-        return [self._state[0], self._state[-1], self._spin, self._spot]
+        return [self._moving.state, self._moving.past, self._spin, self._spot]
 
     def _show(self) -> None:
         """Copies the state of the loop to the present state."""
-        state = self._state[0]
+        state = self._moving.state
         self._momentum[:], self._gamma[:] = self._scale * state[K : K + 3], state[G : G + 3]
         if self._follows:
             self._ends["attitude"][1], self._ends["contact"][1] = self._spin, self._spot
 
     def __getstate__(self) -> tuple[object, ...]:
         settings = self.ball, self.order, self._follows, self._traced, self.time_step
-        moving = self._spin, self._spot, *self._ends.values()
-        return settings, self._scale, self._taken, self._state, moving, self._start
+        return settings, self._scale, self._taken, self._moving, list(self._ends.values()), self._start
 
     def __setstate__(self, kept: tuple[Any, ...]) -> None:
-        settings, self._scale, self._taken, state, moving, self._start = kept
+        settings, self._scale, self._taken, moving, ends, self._start = kept
         self._prepare(*settings)
-        self._state = [x.copy() for x in state]
-        for mine, other in zip((self._spin, self._spot, *self._ends.values()), moving, strict=True):
+        self._moving = deepcopy(moving)
+        self._spin, self._spot = self._moving.attitude, self._moving.contact
+        for mine, other in zip(self._ends.values(), ends, strict=True):
             mine[:] = other
 
 
@@ -423,7 +426,7 @@ class Proof:
         there.momentum[0, now], there.gamma[0, now] = ball._momentum, ball._gamma
         if ball._follows:
             there.attitude[0, now], there.contact[0, now] = ball._spin, ball._spot
-        index, stages = np.array([0.0, float(ball._taken)]), len(ball._stages)
+        index, stages = np.array([0.0, float(ball._taken)]), len(ball._stages.c)
         found = proved.errors(self._balls, index, there, self._frames, self._spread[np.newaxis], stages)
         present: list[Any] = [None if x is None else x[0, now] for x in found]
         whole = all(np.isfinite(x) for x in present if x is not None)

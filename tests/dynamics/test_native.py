@@ -252,7 +252,7 @@ def test_another_number_of_arguments_and_a_number_of_another_type_are_refused():
             native.loop(loop.advance_all)(*given)
     with pytest.raises(TypeError, match="takes no keyword arguments"):
         native.loop(loop.prepare)(momentum=np.ones(3))
-    given = [np.ones(3), np.ones(3), np.ones(3), "1", np.ones(1), np.zeros(loop.ROWS), np.ones(1), np.ones(1)]
+    given = [np.ones(3), np.ones(3), np.ones(3), "1", np.ones(1), np.zeros(loop.ROWS), np.ones((2, 1))]
     with pytest.raises(TypeError, match="must be real number, not str"):
         native.loop(loop.prepare)(*given)
 

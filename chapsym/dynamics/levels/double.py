@@ -19,7 +19,8 @@ from ..coefficients import substeps
 from ..errors import BadInput, Status, explain
 from ..loops import block, gibbs, loop
 from ..loops.guess import stage_weights
-from .frames import Balls, Count, Frames, cores, share
+from ..loops.records import Moving, Stages, Steps
+from .frames import Balls, Count, Frames, cores, parts, share
 
 #: The fewest steps that are worth threads: a few milliseconds.
 SHORT_RUN = 50_000
@@ -57,19 +58,19 @@ def run(
     order: of the composition, 2 for the map itself.  threads: the number of cores; 0 for all.
     of: the numbers of the balls and of the frames.
     """
-    count, n, stages = Count(progress), len(balls.D), substeps(order).astype(of.dtype)
+    count, n, stages = Count(progress), len(balls.D), staged(order, of)
     if steps == 0 or n == 0:
         return
-    workers = threads or cores() if steps * n * len(stages) >= SHORT_RUN else 1
+    workers = threads or cores() if steps * n * len(stages.c) >= SHORT_RUN else 1
     task, width = _run_one, 1
     if n > 1 and not (frames.with_body and of.rests) and native.is_compiled():
         # Several blocks in one call if they take all their steps in it; each core gets four calls or more.
         calls = 4 * workers if workers > 1 else 1
-        at_once = max(1, min(CHUNK // (of.lanes * len(stages) * steps), -(-n // (of.lanes * calls))))
+        at_once = max(1, min(CHUNK // (of.lanes * len(stages.c) * steps), -(-n // (of.lanes * calls))))
         task, width = _run_blocks, of.lanes * at_once
 
     def some(start: int) -> None:
-        task(balls, slice(start, min(n, start + width)), steps, every, frames, of, stages, count)
+        task(balls, slice(start, min(n, start + width)), Steps(0, steps, every), frames, of, stages, count)
 
     starts = range(0, n, width)
     share(some, starts, min(workers, len(starts)), count)
@@ -95,7 +96,7 @@ def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
 
 
 def _run_one(
-    balls: Balls, which: slice, steps: int, every: int, frames: Frames, of: Numbers, stages: Floats, count: Count
+    balls: Balls, which: slice, steps: Steps, frames: Frames, of: Numbers, stages: Stages, count: Count
 ) -> None:
     i, march = which.start, of.loop(loop.march)
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], balls.D[i]
@@ -103,34 +104,33 @@ def _run_one(
     attitude, spot = (np.zeros(k * (1 + of.rests), of.dtype) for k in (4, 2))
     if frames.with_body:
         attitude[:4] = frames.attitude[i, 0]
-    chunk = max(1, CHUNK // len(stages))
-    for first in range(0, steps, chunk):
-        now = min(chunk, steps - first)
-        went, frames.status[i], frames.reach[i] = march(
-            *state, 0, first, now, every, scale, frames.momentum[i], frames.gamma[i],
-            frames.with_body, attitude, spot, balls.radius[i], frames.attitude[i], frames.contact[i],
-        )  # fmt: skip
+    ball, track = Moving(*state, attitude, spot, balls.radius[i]), frames.of(i)
+    for some in parts(steps, CHUNK // len(stages.c)):
+        went, frames.status[i], frames.reach[i] = march(ball, stages, some, 0, scale, track)
         frames.taken[i] += went
-        count.add(now)
+        count.add(some.last - some.first)
         if count.stopped:
             return
         if frames.status[i] != Status.TAKEN:
-            frames.status[i] = explained(frames.status[i], scale * state[0][:3], state[0][3:6], J, D)
+            frames.status[i] = explained(frames.status[i], scale * ball.state[:3], ball.state[3:6], J, D)
             return
 
 
-def begun(K: Floats, g: Floats, J: Floats, D: float, of: Numbers, stages: Floats) -> tuple[list[Floats], float]:
-    """The argument of the loop of one ball, and the scale with 𝒦 = scale·k."""
-    state, bounds, weights = np.zeros(loop.ROWS, of.dtype), np.zeros((2, len(stages)), of.dtype), _weights(stages, of)
-    scale = of.loop(loop.prepare)(K, g, J, D, stages, state, *bounds)
-    _, places, vectors = weights.shape
+def begun(
+    K: Floats, g: Floats, J: Floats, D: float, of: Numbers, stages: Stages
+) -> tuple[tuple[Floats, Floats, Floats], float]:
+    """The state, the limits and the past of a ball that begins to move, and the scale with 𝒦 = scale·k."""
+    state, limits = np.zeros(loop.ROWS, of.dtype), np.zeros((2, len(stages.c)), of.dtype)
+    scale = of.loop(loop.prepare)(K, g, J, D, stages.c, state, limits)
+    _, places, vectors = stages.weights.shape
     past = np.zeros((places + max(places, vectors), 3), of.dtype)
-    return [state, stages, weights, *bounds, past], of.dtype(scale)
+    return (state, limits, past), of.dtype(scale)
 
 
-def _weights(stages: Floats, of: Numbers) -> Floats:
-    """The weights of the guesses of a composition, in the type of the loops."""
-    return stage_weights(tuple(stages.tolist())).astype(of.dtype, copy=False)
+def staged(order: int, of: Numbers) -> Stages:
+    """The stages of a composition, in the type of the loops."""
+    c = substeps(order).astype(of.dtype)
+    return Stages(c, stage_weights(tuple(c.tolist())).astype(of.dtype, copy=False))
 
 
 def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
@@ -139,23 +139,22 @@ def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
 
 
 def _run_blocks(
-    balls: Balls, which: slice, steps: int, every: int, frames: Frames, of: Numbers, stages: Floats, count: Count
+    balls: Balls, which: slice, steps: Steps, frames: Frames, of: Numbers, stages: Stages, count: Count
 ) -> None:
-    n, weights = which.stop - which.start, _weights(stages, of)
+    n, (c, weights) = which.stop - which.start, stages
     lanes = min(of.lanes, -(-n // of.register) * of.register)
     state, past = np.zeros((loop.ROWS, lanes), of.dtype), np.empty((3 * weights.shape[1], lanes), of.dtype)
-    radius, enough = np.empty((2, len(stages), lanes), of.dtype)
+    radius, enough = np.empty((2, len(c), lanes), of.dtype)
     body = np.empty((7, lanes), of.dtype)
     scale, ended, status = np.empty(n, of.dtype), np.empty((n, 6), of.dtype), frames.status[which]
     begin = (x[which] for x in (balls.momentum, balls.gamma, balls.mass_tensor, balls.D))
     own = *begin, np.ascontiguousarray(balls.radius[which]), scale, ended
     kept = frames.momentum[which], frames.gamma[which], frames.taken[which], status, frames.reach[which]
     bodies = frames.with_body, body, frames.attitude[which], frames.contact[which]
-    chunk = max(1, CHUNK // (n * len(stages)))
-    for first in range(0, steps, chunk):
-        now = min(chunk, steps - first)
-        march = of.loop(block.march_blocks)
-        march(state, stages, weights, radius, enough, past, first, now, every, *own, *kept, *bodies)
+    march = of.loop(block.march_blocks)
+    for some in parts(steps, CHUNK // (n * len(c))):
+        now = some.last - some.first
+        march(state, c, weights, radius, enough, past, some.first, now, some.every, *own, *kept, *bodies)
         count.add(now * n)
         if count.stopped:
             return

@@ -2,7 +2,7 @@
 
 import os
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed, wait
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import Digits, Enclosure, Precision
 
 from ..ball import Ball, Floats, batch, beyond_float64, exact_array, numbers, unit_vertical
+from ..loops.records import Steps, Track
 
 #: The number of parts of the work of each thread, so that none is idle for long at the end.
 SHARES = 16
@@ -78,6 +79,16 @@ class Frames:
     with_body: bool
     low: "Frames | None" = None
     least: bool = False
+
+    def of(self, i: int) -> Track:
+        """The frames of one ball, for the loops."""
+        return Track(self.momentum[i], self.gamma[i], self.attitude[i], self.contact[i], self.with_body)
+
+
+def parts(steps: Steps, size: int) -> Iterator[Steps]:
+    """The steps of a run in parts of `size`, between which it can be interrupted."""
+    for first in range(steps.first, steps.last, max(1, size)):
+        yield Steps(first, min(steps.last, first + size), steps.every)
 
 
 class Count:

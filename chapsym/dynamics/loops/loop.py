@@ -16,7 +16,8 @@ from .branch import moments, small_rotation
 from .gibbs import BEYOND, SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore, turned
 from .path import search_on_path
-from .text import Cube, Doubles, Integers, Matrix, Vector, out_of_line
+from .records import Moving, Stages, Steps, Track
+from .text import Doubles, Integers, Matrix, Vector, out_of_line
 from .vectors import largest, plus, put, put_four, scaled, scaled_four, shifted, three, unit
 
 #: The largest binary exponent for the scaling of a ball.
@@ -30,23 +31,20 @@ SINGLE = {"small_rotation": single_loop.widened, "follow_body": single_loop.foll
 
 
 @out_of_line
-def prepare(
-    momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Vector, state: Vector, radius: Vector,
-    enough: Vector,
-):  # fmt: skip
-    """Writes the state of a ball, and radius² and enough for each stage c, (s,); returns `scale`, with 𝒦 = scale·k."""
+def prepare(momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Vector, state: Vector, limits: Matrix):
+    """Writes the state of a ball, and the limits for each stage c, (s,); returns `scale`, with 𝒦 = scale·k."""
     part = np.empty(3, momentum.dtype)
     for i in range(c.shape[0]):
         if c[i] != 1.0:
             for j in range(3):
                 part[j] = c[i] * momentum[j]
             entered(part, g, tensor, contact, state)
-            radius[i], enough[i] = state[RADIUS], state[ENOUGH]
+            limits[0, i], limits[1, i] = state[RADIUS], state[ENOUGH]
     scale = entered(momentum, g, tensor, contact, state)
     remember(state)
     for i in range(c.shape[0]):
         if c[i] == 1.0:
-            radius[i], enough[i] = state[RADIUS], state[ENOUGH]
+            limits[0, i], limits[1, i] = state[RADIUS], state[ENOUGH]
     return scale
 
 
@@ -131,46 +129,39 @@ def guessed(past, at, weights):
     return u
 
 
-def march(
-    state: Vector, c: Vector, weights: Cube, radius: Vector, enough: Vector, past: Matrix, begun: int, first: int,
-    count: int, every: int, scale: float, momenta: Matrix, verticals: Matrix, with_body: bool, attitude: Vector,
-    contact: Vector, rho: float, attitudes: Matrix, traces: Matrix,
-):  # fmt: skip
-    """Takes `count` steps from step `first` on; stores every `every`-th state in the frame arrays.
+def march(ball: Moving, stages: Stages, steps: Steps, begun: int, scale: float, track: Track):
+    """Takes the steps of a ball; 𝒦 = scale·k, and `begun` steps were taken before step 0 of the frames.
 
-    c, radius², enough: of the stages, (s,); weights: for the guesses (`guess.stage_weights`); past (2 places, 3): the
-    last Gibbs vectors, each stored twice, so that those of a guess are contiguous.
-    begun: the number of steps taken before step 0 of the frames.
-    state (ROWS), attitude (4) and contact (2) hold the present state and are updated; 𝒦 = scale·k.  The attitude
-    and the trace are used only if `with_body`.  Returns (taken, status, reach); if a stage fails, the state is left
-    with the momentum and the vertical of that stage.
+    The state has ROWS numbers, the attitude 4, the contact point 2; past (2 places, 3) has each Gibbs vector twice, so
+    that those of a guess are contiguous.  Returns (taken, status, reach); if a stage fails, the state is left with the
+    momentum and the vertical of that stage.
     """
+    state, past, c, weights = ball.state, ball.past, stages.c, stages.weights
     k, g, x, y, inertia = three(state, K), three(state, G), three(state, X), three(state, X + 3), three(state, I)
-    stages, places = c.shape[0], weights.shape[1]
-    period = max(1, PERIOD // stages)
-    step, status, reach = first, 0, 1.0
-    last = first + count
-    while step < last and status == 0:
+    count, places = c.shape[0], weights.shape[1]
+    period = max(1, PERIOD // count)
+    step, status, reach = steps.first, 0, 1.0
+    while step < steps.last and status == 0:
         # Up to the next frame, the next restoration, or the end.
-        stop = min(last, step + every - step % every, step + period - (begun + step) % period)
+        stop = min(steps.last, step + steps.every - step % steps.every, step + period - (begun + step) % period)
         while step < stop:
-            at = (begun + step) * stages % places
-            later = 1 if (begun + step) * stages >= places else 0
-            for i in range(stages):
+            at = (begun + step) * count % places
+            later = 1 if (begun + step) * count >= places else 0
+            for i in range(count):
                 m = scaled(c[i], k)
                 u = guessed(past, at + i, weights[later, at + i])
-                settled, p, u = settle(u, m, g, inertia, state[D], radius[i], enough[i])
+                settled, p, u = settle(u, m, g, inertia, state[D], ball.limits[0, i], ball.limits[1, i])
                 if not settled:
                     put(state, K, m)
                     put(state, G, g)
-                    state[RADIUS], state[ENOUGH] = radius[i], enough[i]
+                    state[RADIUS], state[ENOUGH] = ball.limits[0, i], ball.limits[1, i]
                     status, reach, p, u = safe_rotation(u, state)
                     if status != 0:
                         break
                 put(past[at + i], 0, u)
                 put(past[places + at + i], 0, u)
-                if with_body:
-                    follow_body(p, g, attitude, contact, rho)
+                if track.follows:
+                    follow_body(p, g, ball.attitude, ball.contact, ball.radius)
                 k, x = turned(p, k, x)
                 g, y = turned(p, g, y)
             if status != 0:
@@ -184,15 +175,15 @@ def march(
         if status == 0 and (begun + step) % period == 0:
             restore(state)
             x, y = three(state, X), three(state, X + 3)
-        if status == 0 and step % every == 0:
-            frame = step // every
-            put(momenta[frame], 0, scaled(scale, k))
-            put(verticals[frame], 0, g)
-            if with_body:
+        if status == 0 and step % steps.every == 0:
+            frame = step // steps.every
+            put(track.momenta[frame], 0, scaled(scale, k))
+            put(track.verticals[frame], 0, g)
+            if track.follows:
                 for i in range(4):
-                    attitudes[frame, i] = attitude[i]
-                traces[frame, 0], traces[frame, 1] = contact[0], contact[1]
-    return step - first, status, reach
+                    track.attitudes[frame, i] = ball.attitude[i]
+                track.traces[frame, 0], track.traces[frame, 1] = ball.contact[0], ball.contact[1]
+    return step - steps.first, status, reach
 
 
 def advance(momentum, g, tensor, contact, state, q):
