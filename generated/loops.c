@@ -85,6 +85,7 @@ INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_r
 
 typedef struct { r1 first, allowed, most, start; } Asked;
 typedef struct { r2 tensor; r1 contact, radius; } Balls;
+typedef struct { r2 state, radius, enough, past, body; r1 scale; } Block;
 typedef struct { i1 taken, status; d1 reach; } Ends;
 typedef struct { r3 momenta, verticals, attitudes, traces; int follows, traced; } Frames;
 typedef struct { r1 state; r2 limits, past; r1 attitude, contact; real radius; } Moving;
@@ -93,8 +94,8 @@ typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { real a0, a1, a2; } t_r3;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8; } t_r9;
 typedef struct { t_r4 p; t_r3 w; real first; t_r3 d; t_r9 cofactors; } Round;
-typedef struct { real h; int64_t first, steps, every; } Run;
 typedef struct { r1 c; r3 weights; } Stages;
+typedef struct { r2 momentum, gamma, tensor; r1 contact; } Start;
 typedef struct { int64_t first, last, every; } Steps;
 typedef struct { r2 momenta, verticals, attitudes, traces; int follows; } Track;
 typedef struct { r2 sums; r3 following; r2 beginning; } Weights;
@@ -896,19 +897,25 @@ INLINE int64_t block_registers(int64_t balls) {
     return div_i(balls + block_REGISTER - 1, block_REGISTER) * block_REGISTER;
 }
 
+INLINE Start block_started(Start start, int64_t low, int64_t high) {
+    return (Start){r2_part(start.momentum, low, high), r2_part(start.gamma, low, high), r2_part(start.tensor, low,
+        high), r1_part(start.contact, low, high)};
+}
+
 INLINE void vectors_put_in(r2 S, int64_t at, int64_t i, t_r3 v) {
     AT2(S, at, i) = v.a0; AT2(S, at + 1, i) = v.a1; AT2(S, at + 2, i) = v.a2;
 }
 
-OUT_OF_LINE void block_enter(r2 momentum, r2 g, r2 tensor, r1 contact, real factor, r2 S, r1 scale, w1 ok) {
-    int64_t i; t_r3 m, tensor_i; t_ib exponent;
+OUT_OF_LINE void block_enter(Start start, real factor, r2 S, r1 scale, w1 ok) {
+    int64_t i; t_r3 m, tensor; t_ib exponent;
     for (int64_t lane = 0, end_lane = ok.n0; lane < end_lane; lane++) {
-        i = min_i(lane, contact.n0 - 1); m = vectors_scaled(factor, vectors_three(r2_row(momentum, i), 0));
-        tensor_i = vectors_three(r2_row(tensor, i), 0); exponent = loop_scaling(m, tensor_i, contact.p[i]);
+        i = min_i(lane, start.contact.n0 - 1);
+        m = vectors_scaled(factor, vectors_three(r2_row(start.momentum, i), 0));
+        tensor = vectors_three(r2_row(start.tensor, i), 0); exponent = loop_scaling(m, tensor, start.contact.p[i]);
         vectors_put_in(S, 0, lane, loop_times(m, -exponent.a0 - 1));
-        vectors_put_in(S, 3, lane, vectors_three(r2_row(g, i), 0));
-        vectors_put_in(S, 18, lane, loop_times(tensor_i, -exponent.a0));
-        t_r3 t_1 = loop_times((t_r3){contact.p[i], R(0.0), R(0.0)}, -exponent.a0); AT2(S, 24, lane) = t_1.a0;
+        vectors_put_in(S, 3, lane, vectors_three(r2_row(start.gamma, i), 0));
+        vectors_put_in(S, 18, lane, loop_times(tensor, -exponent.a0));
+        t_r3 t_1 = loop_times((t_r3){start.contact.p[i], R(0.0), R(0.0)}, -exponent.a0); AT2(S, 24, lane) = t_1.a0;
         AT2(S, 25, lane) = exponent.a1 ? R(1.0) : R(0.0); scale.p[i] = R(ldexp(R(1.0), (int)(exponent.a0 + 1)));
     }
 }
@@ -942,16 +949,16 @@ INLINE void block_remembered(r2 S, w1 ok) {
     }
 }
 
-INLINE void block_prepare_block(r2 momentum, r2 g, r2 tensor, r1 contact, r1 c, r2 S, r2 radius, r2 enough, r2 past,
-    r1 scale, w1 ok) {
+INLINE void block_prepare_block(Start start, r1 c, Block block, w1 ok) {
+    r2 S = block.state, radius = block.radius, enough = block.enough, past = block.past;
     for (int64_t s = 0, end_s = c.n0; s < end_s; s++) {
         if (c.p[s] != R(1.0)) {
-            block_enter(momentum, g, tensor, contact, c.p[s], S, scale, ok);
+            block_enter(start, c.p[s], S, block.scale, ok);
             block_limited(S, r2_row(radius, s), r2_row(enough, s), ok);
         }
     }
-    block_enter(momentum, g, tensor, contact, R(1.0), S, scale, ok);
-    block_limited(S, r2_row(S, 25), r2_row(S, 26), ok); block_remembered(S, ok);
+    block_enter(start, R(1.0), S, block.scale, ok); block_limited(S, r2_row(S, 25), r2_row(S, 26), ok);
+    block_remembered(S, ok);
     for (int64_t s = 0, end_s = c.n0; s < end_s; s++) {
         INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
             AT2(radius, s, i) = c.p[s] == R(1.0) ? AT2(S, 25, i) : AT2(radius, s, i);
@@ -1109,19 +1116,19 @@ INLINE t_i2 block_solved(r2 S, r2 P, w1 ok, int64_t hopeless, int64_t beyond, in
     return (t_i2){patience, bad};
 }
 
-OUT_OF_LINE void block_mend(r2 S, r2 P, w1 ok, int64_t step, i1 taken, i1 status, d1 reach, int64_t balls) {
+OUT_OF_LINE void block_mend(r2 S, r2 P, w1 ok, int64_t step, Ends ends) {
     t_r3 k, g, inertia, w; t_b_r4__r3_ u; t_r4 p;
     for (int64_t i = 0, end_i = ok.n0; i < end_i; i++) {
         if (ok.p[i] == 1) { continue; }
-        if (i < balls && status.p[i] == 0) {
+        if (i < ends.status.n0 && ends.status.p[i] == 0) {
             real one_[S.n0]; r1 one = {one_, S.n0};
             for (int64_t i_ = 0; i_ < S.n0; i_++) { one_[i_] = AT2(S, i_, i); }
             k = vectors_three(one, 0); g = vectors_three(one, 3); inertia = vectors_three(one, 21);
             u = gibbs_settle(vectors_three_in(P, 9, i), k, g, inertia, one.p[24], one.p[25], one.p[26], 0);
-            t_ir_r4__r3_ t_1 = loop_safe_rotation(u.a2, one); status.p[i] = t_1.a0; reach.p[i] = t_1.a1; p = t_1.a2;
-            w = t_1.a3;
-            if (status.p[i] == 0) { vectors_put_four_in(P, 0, i, p); vectors_put_in(P, 4, i, w); continue; }
-            taken.p[i] = step;
+            t_ir_r4__r3_ t_1 = loop_safe_rotation(u.a2, one); ends.status.p[i] = t_1.a0; ends.reach.p[i] = t_1.a1;
+            p = t_1.a2; w = t_1.a3;
+            if (ends.status.p[i] == 0) { vectors_put_four_in(P, 0, i, p); vectors_put_in(P, 4, i, w); continue; }
+            ends.taken.p[i] = step;
         }
         AT2(S, 25, i) = R(-1.0); vectors_put_four_in(P, 0, i, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)});
         vectors_put_in(P, 4, i, (t_r3){R(0.0), R(0.0), R(0.0)});
@@ -1172,118 +1179,119 @@ OUT_OF_LINE void block_restored(r2 S, i1 status) {
     }
 }
 
-INLINE void block_keep(r2 S, r2 B, int64_t frame, r1 scale, r3 momenta, r3 verticals, i1 status, int with_body, r3
-    attitudes, r3 traces) {
+INLINE void block_keep(Block block, int64_t frame, Frames frames, i1 status) {
+    r2 S = block.state, B = block.body;
     for (int64_t i = 0, end_i = status.n0; i < end_i; i++) {
         if (status.p[i] == 0) {
             for (int64_t c = 0; c < 3; c++) {
-                AT3(momenta, i, frame, c) = scale.p[i] * AT2(S, 0 + c, i);
-                AT3(verticals, i, frame, c) = AT2(S, 3 + c, i);
+                AT3(frames.momenta, i, frame, c) = block.scale.p[i] * AT2(S, 0 + c, i);
+                AT3(frames.verticals, i, frame, c) = AT2(S, 3 + c, i);
             }
-            if (with_body) {
-                for (int64_t c = 0; c < 4; c++) { AT3(attitudes, i, frame, c) = AT2(B, c, i); }
-                AT3(traces, i, frame, 0) = AT2(B, 4, i); AT3(traces, i, frame, 1) = AT2(B, 5, i);
+            if (frames.follows) {
+                for (int64_t c = 0; c < 4; c++) { AT3(frames.attitudes, i, frame, c) = AT2(B, c, i); }
+                AT3(frames.traces, i, frame, 0) = AT2(B, 4, i); AT3(frames.traces, i, frame, 1) = AT2(B, 5, i);
             }
         }
     }
 }
 
-INLINE void block_march_block(r2 S, r1 c, r3 weights, r2 radius, r2 enough, r2 H, int64_t first, int64_t count,
-    int64_t every, r1 scale, r3 momenta, r3 verticals, i1 taken, i1 status, d1 reach, int with_body, r2 B, r3
-    attitudes, r3 traces, w1 ok) {
-    int64_t at, later, bad; ALIGNED real other_[27 * block_LANES]; r2 other = {other_, 27, block_LANES, block_LANES};
-    ALIGNED real P_[12 * block_LANES]; r2 P = {P_, 12, block_LANES, block_LANES};
-    int64_t stages = c.n0, places = weights.n1, balls = status.n0, period = max_i(1, div_i(1024, stages));
-    ALIGNED int64_t hopeless_[stages]; i1 hopeless = {hopeless_, stages}; ALIGNED int64_t beyond_[stages];
-    i1 beyond = {beyond_, stages};
-    if (stages > 1) { block_carry(S, other, ok.n0); }
-    r2 T = stages == 1 ? S : other; int64_t last = first + count, patience = 0;
-    for (int64_t s = 0, end_s = stages; s < end_s; s++) {
+INLINE void block_march_block(Block block, Stages stages, Steps steps, Frames frames, Ends ends, w1 ok) {
+    int64_t at, later, bad; r2 S = block.state, H = block.past, radius = block.radius, enough = block.enough;
+    ALIGNED real other_[27 * block_LANES]; r2 other = {other_, 27, block_LANES, block_LANES};
+    ALIGNED real P_[12 * block_LANES]; r2 P = {P_, 12, block_LANES, block_LANES}; r1 c = stages.c;
+    r3 weights = stages.weights; i1 status = ends.status;
+    int64_t count = c.n0, places = weights.n1, period = max_i(1, div_i(1024, count));
+    ALIGNED int64_t hopeless_[count]; i1 hopeless = {hopeless_, count}; ALIGNED int64_t beyond_[count];
+    i1 beyond = {beyond_, count};
+    if (count > 1) { block_carry(S, other, ok.n0); }
+    r2 T = count == 1 ? S : other; int64_t patience = 0;
+    for (int64_t s = 0, end_s = count; s < end_s; s++) {
         t_i2 t_1 = block_uncertified(r2_row(radius, s), ok); hopeless.p[s] = t_1.a0; beyond.p[s] = t_1.a1;
     }
-    for (int64_t step = first, end_step = last; step < end_step; step++) {
-        at = mod_i(step * stages, places); later = step * stages >= places ? 1 : 0;
-        for (int64_t s = 0, end_s = stages; s < end_s; s++) {
-            if (stages > 1) { block_begin_stage(S, T, c.p[s], r2_row(radius, s), r2_row(enough, s), ok); }
+    for (int64_t step = steps.first, end_step = steps.last; step < end_step; step++) {
+        at = mod_i(step * count, places); later = step * count >= places ? 1 : 0;
+        for (int64_t s = 0, end_s = count; s < end_s; s++) {
+            if (count > 1) { block_begin_stage(S, T, c.p[s], r2_row(radius, s), r2_row(enough, s), ok); }
             block_guessed(P, H, at + s, places, r2_row(r3_row(weights, later), at + s), ok);
             t_i2 t_2 = block_solved(T, P, ok, hopeless.p[s], beyond.p[s], patience); patience = t_2.a0; bad = t_2.a1;
             if (bad != 0) {
-                block_mend(T, P, ok, step, taken, status, reach, balls); block_stop(S, T, radius, status, ok);
-                for (int64_t n = 0, end_n = stages; n < end_n; n++) {
+                block_mend(T, P, ok, step, ends); block_stop(S, T, radius, status, ok);
+                for (int64_t n = 0, end_n = count; n < end_n; n++) {
                     t_i2 t_3 = block_uncertified(r2_row(radius, n), ok); hopeless.p[n] = t_3.a0; beyond.p[n] = t_3.a1;
                 }
             }
-            if (with_body) { block_rolled(T, P, B, ok); }
+            if (frames.follows) { block_rolled(T, P, block.body, ok); }
             block_end_stage(S, P, H, 3 * (at + s), ok);
         }
         if (mod_i(step + 1, period) == 0) { block_restored(S, status); }
-        if (mod_i(step + 1, every) == 0) {
-            block_keep(S, B, div_i(step + 1, every), scale, momenta, verticals, status, with_body, attitudes, traces);
-        }
+        if (mod_i(step + 1, steps.every) == 0) { block_keep(block, div_i(step + 1, steps.every), frames, status); }
     }
-    for (int64_t i = 0, end_i = balls; i < end_i; i++) {
-        if (status.p[i] == 0) { taken.p[i] = last; }
+    for (int64_t i = 0, end_i = status.n0; i < end_i; i++) {
+        if (status.p[i] == 0) { ends.taken.p[i] = steps.last; }
     }
 }
 
-INLINE void block_march_blocks(r2 state, r1 c, r3 weights, r2 radius, r2 enough, r2 past, int64_t first, int64_t
-    count, int64_t every, r2 momentum, r2 gamma, r2 tensor, r1 contact, r1 rho, r1 scale, r2 ended, r3 momenta, r3
-    verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3 attitudes, r3 traces) {
-    int64_t high, i; w1 ok; ALIGNED real S_[27 * block_LANES]; r2 S = {S_, 27, block_LANES, block_LANES};
-    ALIGNED real B_[7 * block_LANES]; r2 B = {B_, 7, block_LANES, block_LANES};
-    ALIGNED real H_[past.n0 * block_LANES]; r2 H = {H_, past.n0, block_LANES, block_LANES};
-    int64_t width = state.n1, n = contact.n0; ALIGNED int32_t all_lanes_[width]; w1 all_lanes = {all_lanes_, width};
+INLINE void block_march_blocks(Block kept, Stages stages, Steps steps, Start start, r1 rho, Frames frames, Ends ends,
+    r2 ended) {
+    int64_t high, i; w1 ok; Block block; Frames some; Ends outcome; ALIGNED real S_[27 * block_LANES];
+    r2 S = {S_, 27, block_LANES, block_LANES}; ALIGNED real B_[7 * block_LANES];
+    r2 B = {B_, 7, block_LANES, block_LANES}; ALIGNED real H_[kept.past.n0 * block_LANES];
+    r2 H = {H_, kept.past.n0, block_LANES, block_LANES}; int64_t width = kept.state.n1, n = rho.n0;
+    ALIGNED int32_t all_lanes_[width]; w1 all_lanes = {all_lanes_, width};
     for (int64_t low = 0, end_low = n; low < end_low; low += width) {
         high = min_i(low + width, n); ok = w1_part(all_lanes, 0, block_registers(high - low));
-        if (first == 0) {
-            block_prepare_block(r2_part(momentum, low, high), r2_part(gamma, low, high), r2_part(tensor, low, high),
-                r1_part(contact, low, high), c, S, radius, enough, H, r1_part(scale, low, high), ok);
-            if (with_body) {
+        block = (Block){S, kept.radius, kept.enough, H, B, r1_part(kept.scale, low, high)};
+        some = (Frames){r3_part(frames.momenta, low, high), r3_part(frames.verticals, low, high),
+            r3_part(frames.attitudes, low, high), r3_part(frames.traces, low, high), frames.follows, frames.traced};
+        outcome = (Ends){i1_part(ends.taken, low, high), i1_part(ends.status, low, high), d1_part(ends.reach, low,
+            high)};
+        if (steps.first == 0) {
+            block_prepare_block(block_started(start, low, high), stages.c, block, ok);
+            if (frames.follows) {
                 for (int64_t lane = 0, end_lane = ok.n0; lane < end_lane; lane++) {
-                    i = min_i(low + lane, n - 1);
-                    for (int64_t row = 0; row < 4; row++) { AT2(B, row, lane) = AT3(attitudes, i, 0, row); }
-                    AT2(B, 4, lane) = R(0.0); AT2(B, 5, lane) = R(0.0); AT2(B, 6, lane) = rho.p[i];
+                    i = min_i(lane, high - low - 1);
+                    for (int64_t row = 0; row < 4; row++) { AT2(B, row, lane) = AT3(some.attitudes, i, 0, row); }
+                    AT2(B, 4, lane) = R(0.0); AT2(B, 5, lane) = R(0.0); AT2(B, 6, lane) = rho.p[low + i];
                 }
             }
         }
-        else { block_carry(state, S, width); block_carry(body, B, width); block_carry(past, H, width); }
-        block_march_block(S, c, weights, radius, enough, H, first, count, every, r1_part(scale, low, high),
-            r3_part(momenta, low, high), r3_part(verticals, low, high), i1_part(taken, low, high), i1_part(status,
-            low, high), d1_part(reach, low, high), with_body, B, r3_part(attitudes, low, high), r3_part(traces, low,
-            high), ok);
-        for (int64_t i = low, end_i = high; i < end_i; i++) {
-            if (status.p[i] != 0) {
+        else {
+            block_carry(kept.state, S, width); block_carry(kept.body, B, width); block_carry(kept.past, H, width);
+        }
+        block_march_block(block, stages, steps, some, outcome, ok);
+        for (int64_t i = 0, end_i = high - low; i < end_i; i++) {
+            if (outcome.status.p[i] != 0) {
                 for (int64_t row = 0; row < 3; row++) {
-                    AT2(ended, i, row) = scale.p[i] * AT2(S, 0 + row, i - low);
-                    AT2(ended, i, 3 + row) = AT2(S, 3 + row, i - low);
+                    AT2(ended, low + i, row) = block.scale.p[i] * AT2(S, 0 + row, i);
+                    AT2(ended, low + i, 3 + row) = AT2(S, 3 + row, i);
                 }
             }
         }
     }
     if (n <= width) {
-        block_carry(S, state, width); block_carry(H, past, width);
-        if (with_body) { block_carry(B, body, width); }
+        block_carry(S, kept.state, width); block_carry(H, kept.past, width);
+        if (frames.follows) { block_carry(B, kept.body, width); }
     }
 }
 
 INLINE void block_advance_blocks(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach) {
-    int64_t high; w1 ok; t_i2 hopeless, bad; t_r4 p; t_r3 k, g; ALIGNED real S_[27 * block_LANES];
+    int64_t high; w1 ok; t_i2 hopeless, bad; Ends ends; t_r4 p; t_r3 k, g; ALIGNED real S_[27 * block_LANES];
     r2 S = {S_, 27, block_LANES, block_LANES}; ALIGNED real P_[12 * block_LANES];
     r2 P = {P_, 12, block_LANES, block_LANES}; ALIGNED real scale_[block_LANES]; r1 scale = {scale_, block_LANES};
     ALIGNED int32_t all_lanes_[block_LANES]; w1 all_lanes = {all_lanes_, block_LANES};
     ALIGNED int64_t taken_[block_LANES]; memset(taken_, 0, sizeof taken_); i1 taken = {taken_, block_LANES};
-    int64_t n = contacts.n0;
+    int64_t n = contacts.n0; Start start = (Start){momenta, verticals, tensors, contacts};
     for (int64_t low = 0, end_low = n; low < end_low; low += block_LANES) {
         high = min_i(low + block_LANES, n); ok = w1_part(all_lanes, 0, block_registers(high - low));
-        block_enter(r2_part(momenta, low, high), r2_part(verticals, low, high), r2_part(tensors, low, high),
-            r1_part(contacts, low, high), R(1.0), S, scale, ok);
+        block_enter(block_started(start, low, high), R(1.0), S, scale, ok);
         block_limited(S, r2_row(S, 25), r2_row(S, 26), ok);
         INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
             vectors_put_in(P, 9, i, (t_r3){R(0.0), R(0.0), R(0.0)});
         }
         hopeless = block_uncertified(r2_row(S, 25), ok); bad = block_solved(S, P, ok, hopeless.a0, hopeless.a1, 64);
         if (bad.a1 != 0) {
-            block_mend(S, P, ok, 0, taken, i1_part(status, low, high), d1_part(reach, low, high), high - low);
+            ends = (Ends){taken, i1_part(status, low, high), d1_part(reach, low, high)};
+            block_mend(S, P, ok, 0, ends);
         }
         INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
             p = vectors_four_in(P, 0, i); k = vectors_three_in(S, 0, i); g = vectors_three_in(S, 3, i);
@@ -1749,8 +1757,8 @@ INLINE void lanes_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, Fra
     if (frames.traced) { AT3(frames.traces, i, frame, 0) = body.p[10]; AT3(frames.traces, i, frame, 1) = body.p[11]; }
 }
 
-INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, Weights weights, Ends ends, r1 doubt, r2
-    kept) {
+INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Ends ends, real h, Steps steps, Weights weights,
+    r2 kept) {
     int64_t i; t_ir stopped; ALIGNED real S_[140 * (4 * B)]; memset(S_, 0, sizeof S_);
     r2 S = {S_, 140, (4 * B), (4 * B)}; int64_t count = ends.status.n0; ALIGNED real states_[B * 27];
     memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B];
@@ -1758,9 +1766,9 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, We
     memset(body_, 0, sizeof body_); r1 body = {body_, 24};
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
         i = min_i(b, count - 1); lanes_placed(body, i, frames);
-        exponents.p[b] = lanes_enter(S, B, b, i, balls, run.h, weights, body, r2_row(states, b));
+        exponents.p[b] = lanes_enter(S, B, b, i, balls, h, weights, body, r2_row(states, b));
     }
-    if (run.first > 0) {
+    if (steps.first > 0) {
         for (int64_t row = 0; row < 140; row++) {
             for (int64_t lane = 0, end_lane = 4 * B; lane < end_lane; lane++) {
                 AT2(S, row, lane) = AT2(kept, row, lane);
@@ -1770,7 +1778,7 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, We
             for (int64_t row = 0; row < 27; row++) { AT2(states, b, row) = AT2(kept, 140 + row, b); }
         }
     }
-    for (int64_t step = run.first, end_step = run.steps; step < end_step; step++) {
+    for (int64_t step = steps.first, end_step = steps.last; step < end_step; step++) {
         if (lanes_side_by_side(S, B, frames.traced, weights)) {
             for (int64_t b = 0, end_b = B; b < end_b; b++) {
                 if (AT2(S, 58, b) != R(0.0) && AT2(S, 135, b) == R(0.0)) {
@@ -1779,17 +1787,17 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, We
                         AT2(S, 135, b) = R(1.0);
                         if (b < count) {
                             ends.status.p[b] = stopped.a0; ends.reach.p[b] = stopped.a1; ends.taken.p[b] = step;
-                            lanes_stopped_at(b, div_i(step, run.every) + 1, frames);
+                            lanes_stopped_at(b, div_i(step, steps.every) + 1, frames);
                         }
                     }
                 }
             }
         }
-        if (mod_i(step + 1, run.every) == 0) {
+        if (mod_i(step + 1, steps.every) == 0) {
             for (int64_t b = 0, end_b = count; b < end_b; b++) {
                 if (ends.status.p[b] == 0) {
                     lanes_taken_out(S, b, body);
-                    lanes_shown(body, exponents.p[b], b, div_i(step + 1, run.every), frames);
+                    lanes_shown(body, exponents.p[b], b, div_i(step + 1, steps.every), frames);
                 }
             }
         }
@@ -1803,17 +1811,16 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Run run, We
         for (int64_t row = 0; row < 27; row++) { AT2(kept, 140 + row, b) = AT2(states, b, row); }
     }
     for (int64_t b = 0, end_b = count; b < end_b; b++) {
-        doubt.p[b] = ends.status.p[b] == 0 ? AT2(S, 117, b) : R(NAN);
-        if (ends.status.p[b] == 0) { ends.taken.p[b] = run.steps; ends.reach.p[b] = R(1.0); }
+        if (ends.status.p[b] == 0) { ends.taken.p[b] = steps.last; ends.reach.p[b] = R(1.0); }
     }
 }
 
-INLINE void lanes_march(Frames frames, Balls balls, Run run, Weights weights, Ends ends, r1 doubt, r2 kept) {
-    lanes_march_lanes(8, frames, balls, run, weights, ends, doubt, kept);
+INLINE void lanes_march(Frames frames, Balls balls, Ends ends, real h, Steps steps, Weights weights, r2 kept) {
+    lanes_march_lanes(8, frames, balls, ends, h, steps, weights, kept);
 }
 
-INLINE void lanes_march_alone(Frames frames, Balls balls, Run run, Weights weights, Ends ends, r1 doubt, r2 kept) {
-    lanes_march_lanes(1, frames, balls, run, weights, ends, doubt, kept);
+INLINE void lanes_march_alone(Frames frames, Balls balls, Ends ends, real h, Steps steps, Weights weights, r2 kept) {
+    lanes_march_lanes(1, frames, balls, ends, h, steps, weights, kept);
 }
 
 INLINE void loop_n_guess(r3 past, r1 use, r2 E) {
@@ -4057,16 +4064,16 @@ INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int s
 #ifndef LIBRARY
 #ifdef LONG
 WIDEST static void in_lanes_march(const argument *a, argument *got) {
-    lanes_march((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)}, (Run){r_(9),
-        i_(10), i_(11), i_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){i1_(16), i1_(17), d1_(18)}, r1_(19),
-        r2_(20));
+    lanes_march((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
+        (Ends){i1_(9), i1_(10), d1_(11)}, r_(12), (Steps){i_(13), i_(14), i_(15)}, (Weights){r2_(16), r3_(17),
+        r2_(18)}, r2_(19));
     (void)got;
 }
 
 WIDER static void in_lanes_march_alone(const argument *a, argument *got) {
     lanes_march_alone((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
-        (Run){r_(9), i_(10), i_(11), i_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){i1_(16), i1_(17), d1_(18)},
-        r1_(19), r2_(20));
+        (Ends){i1_(9), i1_(10), d1_(11)}, r_(12), (Steps){i_(13), i_(14), i_(15)}, (Weights){r2_(16), r3_(17),
+        r2_(18)}, r2_(19));
     (void)got;
 }
 
@@ -4100,9 +4107,9 @@ static void in_loop_advance_all(const argument *a, argument *got) {
 }
 
 WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
-    block_march_blocks(r2_(0), r1_(1), r3_(2), r2_(3), r2_(4), r2_(5), i_(6), i_(7), i_(8), r2_(9), r2_(10), r2_(11),
-        r1_(12), r1_(13), r1_(14), r2_(15), r3_(16), r3_(17), i1_(18), i1_(19), d1_(20), b_(21), r2_(22), r3_(23),
-        r3_(24));
+    block_march_blocks((Block){r2_(0), r2_(1), r2_(2), r2_(3), r2_(4), r1_(5)}, (Stages){r1_(6), r3_(7)},
+        (Steps){i_(8), i_(9), i_(10)}, (Start){r2_(11), r2_(12), r2_(13), r1_(14)}, r1_(15), (Frames){r3_(16),
+        r3_(17), r3_(18), r3_(19), b_(20), b_(21)}, (Ends){i1_(22), i1_(23), d1_(24)}, r2_(25));
     (void)got;
 }
 
@@ -4173,15 +4180,15 @@ static void in_expected_estimated(const argument *a, argument *got) {
 
 const loop_export LOOPS()[] = {
 #ifdef LONG
-    {"lanes_march", "r3* r3* r3* r3* b* b* r2 r1 r1 r i i i r2 r3 r2 i1* i1* d1* r1* r2*", "", in_lanes_march},
-    {"lanes_march_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r i i i r2 r3 r2 i1* i1* d1* r1* r2*", "", in_lanes_march_alone},
+    {"lanes_march", "r3* r3* r3* r3* b* b* r2 r1 r1 i1* i1* d1* r i i i r2 r3 r2 r2*", "", in_lanes_march},
+    {"lanes_march_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 i1* i1* d1* r i i i r2 r3 r2 r2*", "", in_lanes_march_alone},
     {"following_follow", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 i1* i1* d1* r2* r b", "", in_following_follow},
     {"following_follow_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 i1* i1* d1* r2* r b", "", in_following_follow_alone},
 #else
     {"loop_prepare", "r1 r1 r1 r r1 r1* r2*", "r", in_loop_prepare},
     {"loop_march", "r1* r2* r2* r1* r1* r* r1 r3 i i i i r r2* r2* r2* r2* b*", "iir", in_loop_march},
     {"loop_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_loop_advance_all},
-    {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
+    {"block_march_blocks", "r2* r2* r2* r2* r2* r1* r1 r3 i i i r2 r2 r2 r1 r1 r3* r3* r3* r3* b* b* i1* i1* d1* r2*", "", in_block_march_blocks},
     {"block_advance_blocks", "r2* r2* r2 r1 r2* i1* d1*", "", in_block_advance_blocks},
 #ifndef SINGLE
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
@@ -4200,6 +4207,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "f37ba8ff80f1dfb8c84bb05c42d0ede8de4fb422f89ff7169b60efae30477f8f";
+const char loops_text[] = "c62dc32453128945af05b19d661140c4daa3b6a0455f3bc4e8874a72bad5d9c2";
 #endif
 #endif

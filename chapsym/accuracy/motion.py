@@ -53,7 +53,7 @@ from chapsym.dynamics.ball import (
 from chapsym.dynamics.enclosed_motion import of_motion
 from chapsym.dynamics.extrapolation import FEW, loop_weights, of_some
 from chapsym.dynamics.levels.frames import Count, cores, share, watched
-from chapsym.dynamics.loops import following, lanes
+from chapsym.dynamics.loops import following, records
 from chapsym.dynamics.loops.expected import (
     ALLOWED,
     CONDITION,
@@ -608,13 +608,13 @@ def _run(
     """
     n, ball, follows, traced = len(problem), problem.ball, problem.attitude is not None, problem.contact
     reported, reach, noise, started = np.zeros((n, REPORTED)), np.empty(n), np.empty(n), np.empty(n)
-    frames = lanes.Frames(
+    frames = records.Frames(
         found.angular_momentum, found.gamma, np.empty((n, 0, 4)) if found.attitude is None else found.attitude,
         np.empty((n, 0, 2)) if found.contact is None else found.contact, follows, traced,
     )  # fmt: skip
     radius = ball.D if ball.radius is None or not traced else ball.radius
-    balls = lanes.Balls(np.ascontiguousarray(ball.mass_tensor), ball.D, radius)
-    ends = lanes.Ends(found.reached, found.status, reach)
+    balls = records.Balls(np.ascontiguousarray(ball.mass_tensor), ball.D, radius)
+    ends = records.Ends(found.reached, found.status, reach)
     loop, width = (native.loop(follow_alone), 1) if n < FEW else (native.loop(follow), TOGETHER)
     shortest = first.item() if n == 1 else float(first.min(initial=problem.end))
     quick = n * (problem.end * STEP + problem.frames * FRAME * shortest) <= QUICK * shortest

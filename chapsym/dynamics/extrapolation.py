@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
-from math import prod
+from math import nan, prod
 from typing import Any
 
 import numpy as np
@@ -29,11 +29,12 @@ from .ball import Asked, Ball, Floats, batch, callback, in_shape, is_followed, n
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double_double
 from .levels.dispatch import begun, precision_of
-from .levels.frames import Balls, Count, Frames, cores, share
-from .loops import lanes, loop
+from .levels.frames import Balls, Count, Frames, cores, parts, share
+from .loops import loop, records
 from .loops.double_double import FIRST
 from .loops.guess import guess_weights
-from .loops.lanes import CHANGES, EIGHT, LANES, LAST, MOST_COLUMNS, ROWS, Ends, Weights, march, march_alone
+from .loops.lanes import CHANGES, DOUBT, EIGHT, LANES, LAST, MOST_COLUMNS, MOVED, ROWS, Weights, march, march_alone
+from .loops.records import Steps
 from .map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from .results import in_given_axes
 from .shown import Brief
@@ -215,9 +216,8 @@ def extrapolate(
         pair = Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
         doubt = double_double.run_long(balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress)
     else:
-        states = lanes.Frames(frames.momentum, frames.gamma, frames.attitude, frames.contact, follows, contact)
-        run, weights = lanes.Run(h, 0, steps, kept), loop_weights(columns)
-        doubt = _march(frames, states, lanes.Balls(J, D, radius), run, weights, threads, not shape, progress)
+        given = frames.some(slice(None), contact), records.Balls(J, D, radius), frames.ends(slice(None))
+        doubt = _march(given, h, Steps(0, steps, kept), loop_weights(columns), threads, not shape, progress)
     if not shape and frames.status[0]:
         raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]), int(frames.taken[0]))
 
@@ -236,32 +236,31 @@ def extrapolate(
 
 
 def _march(
-    frames: Frames, states: lanes.Frames, balls: lanes.Balls, run: lanes.Run, weights: Weights, threads: int,
+    given: tuple[records.Frames, records.Balls, records.Ends], h: float, steps: Steps, weights: Weights, threads: int,
     alone: bool, progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
     """Takes all long steps, of one ball (`alone`) or of many; returns doubt, (n,)."""
-    n, steps, stages = len(balls.contact), run.steps, stages_of(weights.sums.shape[1])
-    doubt, chunk = np.empty(n), max(1, CHUNK // stages)
+    n, stages, status = len(given[1].contact), stages_of(weights.sums.shape[1]), given[2].status
+    doubt = np.empty(n)
 
     def chunks(some: slice, width: int) -> Iterator[int]:
         """Takes the steps of some balls in chunks, between which it can be interrupted; yields the steps taken."""
         kept = np.empty((ROWS + loop.ROWS, LANES * width))
-        ends = Ends(frames.taken[some], frames.status[some], frames.reach[some])
-        given, of, take = of_some(states, some), of_some(balls, some), native.loop(march_alone if width == 1 else march)
-        for first in range(0, max(steps, 1), chunk):
-            last = min(first + chunk, steps)
-            take(given, of, run._replace(first=first, steps=last), weights, ends, doubt[some], kept)
-            yield last - first
-            if frames.status[some].all():
+        own, take = [of_some(record, some) for record in given], native.loop(march_alone if width == 1 else march)
+        for part in parts(steps, CHUNK // stages) if steps.last else [steps]:
+            take(*own, h, part, weights, kept)
+            yield part.last - part.first
+            if status[some].all():
                 break  # all have stopped
+        doubt[some] = kept[MOVED + DOUBT, : len(doubt[some])]
 
     if alone:
         done = 0
         for more in chunks(slice(0, 1), 1):
             done += more
-            if not frames.status[0]:
+            if not status[0]:
                 progress(done)
-        return doubt
+        return np.where(status, nan, doubt)
     blocks = (n + EIGHT - FEW) // EIGHT if native.is_compiled() else 0  # the last may have idle lanes
 
     def task(at: int) -> None:
@@ -272,15 +271,15 @@ def _march(
             if count.stopped:
                 break
 
-    parts, work = range(blocks + max(0, n - EIGHT * blocks)), steps * n * stages
-    workers, count = min(threads or cores(), len(parts)) if work >= SHORT_RUN else 1, Count(progress)
-    share(task, parts, workers, count)
-    return doubt
+    tasks, work = range(blocks + max(0, n - EIGHT * blocks)), steps.last * n * stages
+    workers, count = min(threads or cores(), len(tasks)) if work >= SHORT_RUN else 1, Count(progress)
+    share(task, tasks, workers, count)
+    return np.where(status, nan, doubt)
 
 
 def of_some(record: Any, some: slice) -> Any:
     """A record of the loops for some balls."""
-    return type(record)(*(x[some] if isinstance(x, np.ndarray) else x for x in record))
+    return record._make([x[some] if isinstance(x, np.ndarray) else x for x in record])
 
 
 @cache

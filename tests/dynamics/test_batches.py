@@ -12,7 +12,7 @@ from chapsym import BadInput, Ball, Status
 from chapsym.dynamics import kernels, native
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.levels import double, double_double
-from chapsym.dynamics.loops import block, loop
+from chapsym.dynamics.loops import block, loop, records
 from chapsym.dynamics.loops.guess import stage_weights
 
 PRECISIONS = ["single", "double", "double-double"]
@@ -99,14 +99,14 @@ def test_the_steps_of_a_batch_are_not_written_as_one(precision):
 def block_of(n):
     """A block of long steps after 20 of them: what `march_blocks` takes before the steps, and after them."""
     ball, K, g = long_steps(n)
-    weights, bounds = stage_weights((1.0,)), np.zeros((2, 1, block.LANES))
-    state, past = np.zeros((loop.ROWS, block.LANES)), np.zeros((3 * weights.shape[1], block.LANES))
-    begin = K, g, np.tile(ball.mass_tensor, (n, 1)), np.full(n, ball.D), np.ones(n), np.zeros(n), np.zeros((n, 6))
-    ends = np.zeros((n, 1, 3)), np.zeros((n, 1, 3)), np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n)
-    rest = 100, *begin, *ends, False, np.zeros((7, block.LANES)), np.zeros((n, 0, 4)), np.zeros((n, 0, 2))
-    of = state, np.ones(1), weights, *bounds, past
-    native.loop(block.march_blocks)(*of, 0, 20, *rest)
-    assert not ends[3].any()
+    stages = records.Stages(np.ones(1), stage_weights((1.0,)))
+    rows = (np.zeros((rows, block.LANES)) for rows in (loop.ROWS, 1, 1, 3 * stages.weights.shape[1], 7))
+    start = block.Start(K, g, np.tile(ball.mass_tensor, (n, 1)), np.full(n, ball.D))
+    frames = records.Frames(*(np.zeros((n, *shape)) for shape in ((1, 3), (1, 3), (0, 4), (0, 2))), False, False)
+    ends = records.Ends(np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n))
+    of, rest = (block.Block(*rows, np.zeros(n)), stages), (start, np.ones(n), frames, ends, np.zeros((n, 6)))
+    native.loop(block.march_blocks)(*of, records.Steps(0, 20, 100), *rest)
+    assert not ends.status.any()
     return of, rest
 
 
@@ -115,7 +115,7 @@ def test_a_block_of_long_steps_mends_no_lane(monkeypatch):
     (of, rest), few = block_of(block.LANES), []
     monkeypatch.setattr(block, "FEW", 0)
     monkeypatch.setattr(block, "mend", lambda S, P, ok, *rest: few.append(int((ok == 0).sum())))
-    block.march_blocks(*of, 20, 5, *rest)
+    block.march_blocks(*of, records.Steps(20, 25, 100), *rest)
     assert few == []
 
 

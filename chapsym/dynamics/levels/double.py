@@ -141,21 +141,17 @@ def explained(status: int, K: Floats, g: Floats, J: Floats, D: float) -> Status:
 def _run_blocks(
     balls: Balls, which: slice, steps: Steps, frames: Frames, of: Numbers, stages: Stages, count: Count
 ) -> None:
-    n, (c, weights) = which.stop - which.start, stages
+    n, c = which.stop - which.start, stages.c
     lanes = min(of.lanes, -(-n // of.register) * of.register)
-    state, past = np.zeros((loop.ROWS, lanes), of.dtype), np.empty((3 * weights.shape[1], lanes), of.dtype)
+    state, past = np.zeros((loop.ROWS, lanes), of.dtype), np.empty((3 * stages.weights.shape[1], lanes), of.dtype)
     radius, enough = np.empty((2, len(c), lanes), of.dtype)
-    body = np.empty((7, lanes), of.dtype)
-    scale, ended, status = np.empty(n, of.dtype), np.empty((n, 6), of.dtype), frames.status[which]
-    begin = (x[which] for x in (balls.momentum, balls.gamma, balls.mass_tensor, balls.D))
-    own = *begin, np.ascontiguousarray(balls.radius[which]), scale, ended
-    kept = frames.momentum[which], frames.gamma[which], frames.taken[which], status, frames.reach[which]
-    bodies = frames.with_body, body, frames.attitude[which], frames.contact[which]
-    march = of.loop(block.march_blocks)
-    for some in parts(steps, CHUNK // (n * len(c))):
-        now = some.last - some.first
-        march(state, c, weights, radius, enough, past, some.first, now, some.every, *own, *kept, *bodies)
-        count.add(now * n)
+    kept = block.Block(state, radius, enough, past, np.empty((7, lanes), of.dtype), np.empty(n, of.dtype))
+    start = block.Start(*(x[which] for x in (balls.momentum, balls.gamma, balls.mass_tensor, balls.D)))
+    some, ends, ended = frames.some(which), frames.ends(which), np.empty((n, 6), of.dtype)
+    march, rho, status = of.loop(block.march_blocks), np.ascontiguousarray(balls.radius[which]), ends.status
+    for part in parts(steps, CHUNK // (n * len(c))):
+        march(kept, stages, part, start, rho, some, ends, ended)
+        count.add(n * (part.last - part.first))
         if count.stopped:
             return
         if status.all():  # all balls have stopped

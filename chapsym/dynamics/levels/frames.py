@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import Digits, Enclosure, Precision
 
 from ..ball import Ball, Floats, batch, beyond_float64, exact_array, numbers, unit_vertical
-from ..loops.records import Steps, Track
+from ..loops import records
+from ..loops.records import Steps
 
 #: The number of parts of the work of each thread, so that none is idle for long at the end.
 SHARES = 16
@@ -80,9 +81,18 @@ class Frames:
     low: "Frames | None" = None
     least: bool = False
 
-    def of(self, i: int) -> Track:
+    def of(self, i: int) -> records.Track:
         """The frames of one ball, for the loops."""
-        return Track(self.momentum[i], self.gamma[i], self.attitude[i], self.contact[i], self.with_body)
+        return records.Track(self.momentum[i], self.gamma[i], self.attitude[i], self.contact[i], self.with_body)
+
+    def some(self, which: slice, traced: bool = True) -> records.Frames:
+        """The frames of some balls, for the loops; traced: whether the contact points are, of bodies with attitudes."""
+        kept = self.momentum[which], self.gamma[which], self.attitude[which], self.contact[which]
+        return records.Frames(*kept, self.with_body, self.with_body and traced)
+
+    def ends(self, which: slice) -> records.Ends:
+        """The outcomes of some balls, for the loops."""
+        return records.Ends(self.taken[which], self.status[which], self.reach[which])
 
 
 def parts(steps: Steps, size: int) -> Iterator[Steps]:

@@ -4,6 +4,7 @@ The computation for each ball is that of `loop.march`, with the same rounding er
 """
 
 from math import ldexp
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from .integrals import PERIOD, integrals, restore, turned
 from .loop import ENOUGH, INTEGRALS, RADIUS, ROWS, D, G, I, J, K, X, followed, limits, safe_rotation, scaling, times
 from .path import MOST_ROUNDS as PATH_ROUNDS
 from .path import improved, proved
-from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
+from .records import Ends, Frames, Stages, Steps
+from .text import Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import four_in, plus, put, put_four, put_four_in, put_in, scaled, square, three, three_in, unit
 
 #: The most balls in a block: its rows stay in the first-level cache.
@@ -34,6 +36,30 @@ P_ROWS, W, A = 12, 4, 9
 #: The most rounds for all lanes together if more than FEW did not converge; up to FEW are treated one by one.
 ROUNDS = 4
 FEW = 2
+
+
+class Start(NamedTuple):
+    """Balls before a step: 𝒦, γ and J, (balls, 3), and D, (balls,)."""
+
+    momentum: Matrix
+    gamma: Matrix
+    tensor: Matrix
+    contact: Vector
+
+
+class Block(NamedTuple):
+    """A block of balls as they move: `loop.Moving` with a lane for each ball, and the scale of each ball.
+
+    state (ROWS, lanes); radius² and enough, (stages, lanes); past (3 places, lanes); body (7, lanes): the attitude, the
+    contact point and the radius, used only if followed.
+    """
+
+    state: Matrix
+    radius: Matrix
+    enough: Matrix
+    past: Matrix
+    body: Matrix
+    scale: Vector
 
 
 def whole(ok):
@@ -162,21 +188,21 @@ def solved(S, P, ok, hopeless, beyond, patience):
 
 
 @out_of_line
-def mend(S, P, ok, step, taken, status, reach, balls):
+def mend(S, P, ok, step, ends):
     """The step of `loop.march` for the lanes not converged; a ball without a rotation rests from then on."""
     for i in range(len(ok)):
         if ok[i] == 1:
             continue
-        if i < balls and status[i] == 0:
+        if i < len(ends.status) and ends.status[i] == 0:
             one = S[:, i].copy()
             k, g, inertia = three(one, K), three(one, G), three(one, I)
             _, _, u = settle(three_in(P, A, i), k, g, inertia, one[D], one[RADIUS], one[ENOUGH])
-            status[i], reach[i], p, w = safe_rotation(u, one)
-            if status[i] == 0:
+            ends.status[i], ends.reach[i], p, w = safe_rotation(u, one)
+            if ends.status[i] == 0:
                 put_four_in(P, 0, i, p)
                 put_in(P, W, i, w)
                 continue
-            taken[i] = step
+            ends.taken[i] = step
         S[RADIUS, i] = -1.0
         put_four_in(P, 0, i, (1.0, 0.0, 0.0, 0.0))
         put_in(P, W, i, (0.0, 0.0, 0.0))
@@ -247,19 +273,19 @@ def carry(numbers, to, width):
 
 
 @out_of_line
-def enter(momentum, g, tensor, contact, factor, S, scale, ok):
+def enter(start, factor, S, scale, ok):
     """`loop.entered` without `loop.limits`, with `factor` times 𝒦, for every lane; spare lanes repeat the last ball.
 
     Until `limited` the row of radius² has 1 for a ball whose momentum is tiny, and 0 for others.
     """
     for lane in range(len(ok)):
-        i = min(lane, len(contact) - 1)
-        m, tensor_i = scaled(factor, three(momentum[i], 0)), three(tensor[i], 0)
-        exponent, tiny = scaling(m, tensor_i, contact[i])
+        i = min(lane, len(start.contact) - 1)
+        m, tensor = scaled(factor, three(start.momentum[i], 0)), three(start.tensor[i], 0)
+        exponent, tiny = scaling(m, tensor, start.contact[i])
         put_in(S, K, lane, times(m, -exponent - 1))
-        put_in(S, G, lane, three(g[i], 0))
-        put_in(S, J, lane, times(tensor_i, -exponent))
-        S[D, lane], _, _ = times((contact[i], 0.0, 0.0), -exponent)
+        put_in(S, G, lane, three(start.gamma[i], 0))
+        put_in(S, J, lane, times(tensor, -exponent))
+        S[D, lane], _, _ = times((start.contact[i], 0.0, 0.0), -exponent)
         S[RADIUS, lane] = 1.0 if tiny else 0.0
         scale[i] = ldexp(1.0, exponent + 1)
 
@@ -282,13 +308,14 @@ def remembered(S, ok):
         S[INTEGRALS + 4, i], S[INTEGRALS + 5, i] = squared
 
 
-def prepare_block(momentum, g, tensor, contact, c, S, radius, enough, past, scale, ok):
+def prepare_block(start, c, block, ok):
     """`loop.prepare` for each ball of a block."""
+    S, radius, enough, past = block.state, block.radius, block.enough, block.past
     for s in range(len(c)):
         if c[s] != 1.0:
-            enter(momentum, g, tensor, contact, c[s], S, scale, ok)
+            enter(start, c[s], S, block.scale, ok)
             limited(S, radius[s], enough[s], ok)
-    enter(momentum, g, tensor, contact, 1.0, S, scale, ok)
+    enter(start, 1.0, S, block.scale, ok)
     limited(S, S[RADIUS], S[ENOUGH], ok)
     remembered(S, ok)
     for s in range(len(c)):
@@ -311,131 +338,133 @@ def restored(S, status):
                 S[row, i] = one[row]
 
 
-def keep(S, B, frame, scale, momenta, verticals, status, with_body, attitudes, traces):
+def keep(block, frame, frames, status):
     """Writes a frame of each ball that has not stopped."""
+    S, B = block.state, block.body
     for i in range(len(status)):
         if status[i] == 0:
             for c in range(3):
-                momenta[i, frame, c], verticals[i, frame, c] = scale[i] * S[K + c, i], S[G + c, i]
-            if with_body:
+                frames.momenta[i, frame, c] = block.scale[i] * S[K + c, i]
+                frames.verticals[i, frame, c] = S[G + c, i]
+            if frames.follows:
                 for c in range(4):
-                    attitudes[i, frame, c] = B[c, i]
-                traces[i, frame, 0], traces[i, frame, 1] = B[4, i], B[5, i]
+                    frames.attitudes[i, frame, c] = B[c, i]
+                frames.traces[i, frame, 0], frames.traces[i, frame, 1] = B[4, i], B[5, i]
 
 
-def march_block(
-    S, c, weights, radius, enough, H, first, count, every, scale, momenta, verticals, taken, status, reach, with_body,
-    B, attitudes, traces, ok,
-):  # fmt: skip
-    """`loop.march` for a block of balls: S (ROWS, LANES), radius² and enough (s, lanes), H (3 places, LANES).
+def march_block(block, stages, steps, frames, ends, ok):
+    """`loop.march` for a block of balls.
 
-    ok: one entry for each lane in use, a multiple of REGISTER, LANES at most.
-    B: (7, LANES), the attitude, the contact point and the radius, used only if `with_body`.
-    scale, taken, status and reach have one entry for each ball; lanes beyond these are idle copies.
+    ok: one entry for each lane in use, a multiple of REGISTER, LANES at most.  The scale and the ends have one entry
+    for each ball; lanes beyond these are idle copies.
     """
+    S, H, radius, enough = block.state, block.past, block.radius, block.enough
     other, P = np.empty((ROWS, LANES), S.dtype), np.empty((P_ROWS, LANES), S.dtype)
-    stages, places, balls = len(c), weights.shape[1], len(status)
-    period = max(1, PERIOD // stages)
-    hopeless, beyond = np.empty(stages, dtype=np.int64), np.empty(stages, dtype=np.int64)
-    if stages > 1:
+    c, weights, status = stages.c, stages.weights, ends.status
+    count, places = len(c), weights.shape[1]
+    period = max(1, PERIOD // count)
+    hopeless, beyond = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.int64)
+    if count > 1:
         carry(S, other, len(ok))
-    T = S if stages == 1 else other  # the ball of a stage
-    last, patience = first + count, 0
-    for s in range(stages):
+    T = S if count == 1 else other  # the ball of a stage
+    patience = 0
+    for s in range(count):
         hopeless[s], beyond[s] = uncertified(radius[s], ok)
-    for step in range(first, last):
-        at = step * stages % places
-        later = 1 if step * stages >= places else 0
-        for s in range(stages):
-            if stages > 1:
+    for step in range(steps.first, steps.last):
+        at = step * count % places
+        later = 1 if step * count >= places else 0
+        for s in range(count):
+            if count > 1:
                 begin_stage(S, T, c[s], radius[s], enough[s], ok)
             guessed(P, H, at + s, places, weights[later, at + s], ok)
             patience, bad = solved(T, P, ok, hopeless[s], beyond[s], patience)
             if bad != 0:
-                mend(T, P, ok, step, taken, status, reach, balls)
+                mend(T, P, ok, step, ends)
                 stop(S, T, radius, status, ok)
-                for n in range(stages):
+                for n in range(count):
                     hopeless[n], beyond[n] = uncertified(radius[n], ok)
-            if with_body:
-                rolled(T, P, B, ok)
+            if frames.follows:
+                rolled(T, P, block.body, ok)
             end_stage(S, P, H, 3 * (at + s), ok)
         if (step + 1) % period == 0:
             restored(S, status)
-        if (step + 1) % every == 0:
-            keep(S, B, (step + 1) // every, scale, momenta, verticals, status, with_body, attitudes, traces)
-    for i in range(balls):
+        if (step + 1) % steps.every == 0:
+            keep(block, (step + 1) // steps.every, frames, status)
+    for i in range(len(status)):
         if status[i] == 0:
-            taken[i] = last
+            ends.taken[i] = steps.last
 
 
 def march_blocks(
-    state: Matrix, c: Vector, weights: Cube, radius: Matrix, enough: Matrix, past: Matrix, first: int, count: int,
-    every: int, momentum: Matrix, gamma: Matrix, tensor: Matrix, contact: Vector, rho: Vector, scale: Vector,
-    ended: Matrix, momenta: Cube, verticals: Cube, taken: Integers, status: Integers, reach: Doubles, with_body: bool,
-    body: Matrix, attitudes: Cube, traces: Cube,
-):  # fmt: skip
-    """Takes `count` steps of balls from step `first` on, block by block; before step 0 it prepares each block.
+    kept: Block, stages: Stages, steps: Steps, start: Start, rho: Vector, frames: Frames, ends: Ends, ended: Matrix
+):
+    """Takes the steps of balls, block by block; before step 0 it prepares each block.
 
-    state, radius, enough, past, body: of a single block, which successive calls continue; more balls than fit in a
-    block take all their steps in one call.  momentum, gamma, tensor, contact, rho: of each ball at the start,
-    (n, 3), (n, 3), (n, 3), (n,), (n,).  ended: receives 𝒦 and γ of balls that stopped, (n, 6).
+    kept: of a single block, which successive calls continue; more balls than fit in a block take all their steps in one
+    call.  start, rho: of each ball.  ended: receives 𝒦 and γ of balls that stopped, (n, 6).
     """
-    S, B = np.empty((ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
-    H = np.empty((len(past), LANES), state.dtype)
-    width, n = state.shape[1], len(contact)
+    S, B = np.empty((ROWS, LANES), kept.state.dtype), np.empty((7, LANES), kept.state.dtype)
+    H = np.empty((len(kept.past), LANES), kept.state.dtype)
+    width, n = kept.state.shape[1], len(rho)
     all_lanes = np.empty(width, dtype=np.int32)
     for low in range(0, n, width):
         high = min(low + width, n)
         ok = all_lanes[: registers(high - low)]
-        if first == 0:
-            prepare_block(
-                momentum[low:high], gamma[low:high], tensor[low:high], contact[low:high], c, S, radius, enough, H,
-                scale[low:high], ok,
-            )  # fmt: skip
-            if with_body:
-                for lane in range(len(ok)):
-                    i = min(low + lane, n - 1)
-                    for row in range(4):
-                        B[row, lane] = attitudes[i, 0, row]
-                    B[4, lane], B[5, lane], B[6, lane] = 0.0, 0.0, rho[i]
-        else:
-            carry(state, S, width)
-            carry(body, B, width)
-            carry(past, H, width)
-        march_block(
-            S, c, weights, radius, enough, H, first, count, every, scale[low:high], momenta[low:high],
-            verticals[low:high], taken[low:high], status[low:high], reach[low:high], with_body, B, attitudes[low:high],
-            traces[low:high], ok,
+        block = Block(S, kept.radius, kept.enough, H, B, kept.scale[low:high])
+        some = Frames(
+            frames.momenta[low:high], frames.verticals[low:high], frames.attitudes[low:high], frames.traces[low:high],
+            frames.follows, frames.traced,
         )  # fmt: skip
-        for i in range(low, high):
-            if status[i] != 0:
+        outcome = Ends(ends.taken[low:high], ends.status[low:high], ends.reach[low:high])
+        if steps.first == 0:
+            prepare_block(started(start, low, high), stages.c, block, ok)
+            if frames.follows:
+                for lane in range(len(ok)):
+                    i = min(lane, high - low - 1)
+                    for row in range(4):
+                        B[row, lane] = some.attitudes[i, 0, row]
+                    B[4, lane], B[5, lane], B[6, lane] = 0.0, 0.0, rho[low + i]
+        else:
+            carry(kept.state, S, width)
+            carry(kept.body, B, width)
+            carry(kept.past, H, width)
+        march_block(block, stages, steps, some, outcome, ok)
+        for i in range(high - low):
+            if outcome.status[i] != 0:
                 for row in range(3):
-                    ended[i, row], ended[i, 3 + row] = scale[i] * S[K + row, i - low], S[G + row, i - low]
+                    ended[low + i, row], ended[low + i, 3 + row] = block.scale[i] * S[K + row, i], S[G + row, i]
     if n <= width:
-        carry(S, state, width)
-        carry(H, past, width)
-        if with_body:
-            carry(B, body, width)
+        carry(S, kept.state, width)
+        carry(H, kept.past, width)
+        if frames.follows:
+            carry(B, kept.body, width)
+
+
+def started(start, low, high):
+    """Some of the balls before a step."""
+    return Start(start.momentum[low:high], start.gamma[low:high], start.tensor[low:high], start.contact[low:high])
 
 
 def advance_blocks(
     momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, status: Integers, reach: Doubles
-):  # fmt: skip
+):
     """`loop.advance_all` in blocks."""
     S, P = np.empty((ROWS, LANES), momenta.dtype), np.empty((P_ROWS, LANES), momenta.dtype)
     scale, all_lanes = np.empty(LANES, momenta.dtype), np.empty(LANES, dtype=np.int32)
     taken, n = np.zeros(LANES, dtype=np.int64), len(contacts)
+    start = Start(momenta, verticals, tensors, contacts)
     for low in range(0, n, LANES):
         high = min(low + LANES, n)
         ok = all_lanes[: registers(high - low)]
-        enter(momenta[low:high], verticals[low:high], tensors[low:high], contacts[low:high], 1.0, S, scale, ok)
+        enter(started(start, low, high), 1.0, S, scale, ok)
         limited(S, S[RADIUS], S[ENOUGH], ok)
         for i in lanes(whole(ok)):
             put_in(P, A, i, (0.0, 0.0, 0.0))
         hopeless, beyond = uncertified(S[RADIUS], ok)
         _, bad = solved(S, P, ok, hopeless, beyond, PATIENCE)
         if bad != 0:
-            mend(S, P, ok, 0, taken, status[low:high], reach[low:high], high - low)
+            ends = Ends(taken, status[low:high], reach[low:high])
+            mend(S, P, ok, 0, ends)
         for i in lanes(whole(ok)):
             p, k, g = four_in(P, 0, i), three_in(S, K, i), three_in(S, G, i)
             put_in(S, K, i, plus(k, turn(*p, *k)))

@@ -25,7 +25,8 @@ from .carried import FOUND, GRADIENT, PART, SWAY, UNIT_ROUNDING, WHOLE, begun, c
 from .carried import ROUNDED as ROUNDING
 from .carried import ROWS as ERRORS
 from .carried import SPUN as BY_ATTITUDE
-from .lanes import Balls, Ends, Frames, Weights, enter, placed, put_back, resized, safely, shown, stopped_at, taken_out
+from .lanes import Weights, enter, placed, put_back, resized, safely, shown, stopped_at, taken_out
+from .records import Balls, Ends, Frames
 from .text import Matrix, Vector
 from .vectors import (
     conjugate,

@@ -30,7 +30,8 @@ from chapsym.generated import angular_velocity, centre_step, compose, gibbs_newt
 from . import loop
 from .branch import NOT_CONVERGED
 from .gibbs import LEFT, LIGHTEST, bound, certificate, is_heavy, round_from, second_round, settle
-from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
+from .records import Balls, Ends, Frames, Steps
+from .text import Cube, Matrix, lanes, out_of_line
 from .vectors import (
     conjugate,
     cross,
@@ -116,42 +117,6 @@ class Weights(NamedTuple):
     sums: Matrix
     following: Cube
     beginning: Matrix
-
-
-class Balls(NamedTuple):
-    """The balls: J (balls, 3), D and the radius, (balls,)."""
-
-    tensor: Matrix
-    contact: Vector
-    radius: Vector
-
-
-class Frames(NamedTuple):
-    """Frames of balls, (balls, frames, ...), with K for 𝒦; follows, traced: whether there are attitudes and traces."""
-
-    momenta: Cube
-    verticals: Cube
-    attitudes: Cube
-    traces: Cube
-    follows: bool
-    traced: bool
-
-
-class Run(NamedTuple):
-    """The long steps h from `first` to `steps`, of which every `every`-th state is stored."""
-
-    h: float
-    first: int
-    steps: int
-    every: int
-
-
-class Ends(NamedTuple):
-    """The outcome of each ball, (balls,): the steps taken, or the last frame; why not all are; and the reach."""
-
-    taken: Integers
-    status: Integers
-    reach: Doubles
 
 
 def iterate(u, k, g, I, D, heavy, one_is_heavy):
@@ -592,22 +557,22 @@ def safely(S, b, sums, state):
     return status, reach
 
 
-def march_lanes(B, frames, balls, run, weights, ends, doubt, kept):
-    """Takes the steps of a run of at most B balls from their frames 0; kept: the complete state between calls."""
+def march_lanes(B, frames, balls, ends, h, steps, weights, kept):
+    """Takes long steps h of at most B balls from their frames 0; kept: the complete state between calls."""
     S, count = np.zeros((ROWS, LANES * B)), ends.status.shape[0]
     states, exponents, body = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64), np.zeros(MOVING)
     for b in range(B):
         i = min(b, count - 1)  # lanes beyond the balls repeat the last
         placed(body, i, frames)
-        exponents[b] = enter(S, B, b, i, balls, run.h, weights, body, states[b])
-    if run.first > 0:
+        exponents[b] = enter(S, B, b, i, balls, h, weights, body, states[b])
+    if steps.first > 0:
         for row in range(ROWS):
             for lane in range(LANES * B):
                 S[row, lane] = kept[row, lane]
         for b in range(B):
             for row in range(loop.ROWS):
                 states[b, row] = kept[ROWS + row, b]
-    for step in range(run.first, run.steps):
+    for step in range(steps.first, steps.last):
         if side_by_side(S, B, frames.traced, weights):
             for b in range(B):
                 if S[LOST, b] != 0.0 and S[RESTS, b] == 0.0:
@@ -616,12 +581,12 @@ def march_lanes(B, frames, balls, run, weights, ends, doubt, kept):
                         S[RESTS, b] = 1.0
                         if b < count:
                             ends.status[b], ends.reach[b], ends.taken[b] = stopped, reached, step
-                            stopped_at(b, step // run.every + 1, frames)
-        if (step + 1) % run.every == 0:
+                            stopped_at(b, step // steps.every + 1, frames)
+        if (step + 1) % steps.every == 0:
             for b in range(count):
                 if ends.status[b] == 0:
                     taken_out(S, b, body)
-                    shown(body, exponents[b], b, (step + 1) // run.every, frames)
+                    shown(body, exponents[b], b, (step + 1) // steps.every, frames)
     for row in range(ROWS):
         for lane in range(LANES * B):
             kept[row, lane] = S[row, lane]
@@ -629,16 +594,15 @@ def march_lanes(B, frames, balls, run, weights, ends, doubt, kept):
         for row in range(loop.ROWS):
             kept[ROWS + row, b] = states[b, row]
     for b in range(count):
-        doubt[b] = S[MOVED + DOUBT, b] if ends.status[b] == 0 else nan
         if ends.status[b] == 0:
-            ends.taken[b], ends.reach[b] = run.steps, 1.0
+            ends.taken[b], ends.reach[b] = steps.last, 1.0
 
 
-def march(frames: Frames, balls: Balls, run: Run, weights: Weights, ends: Ends, doubt: Vector, kept: Matrix):
+def march(frames: Frames, balls: Balls, ends: Ends, h: float, steps: Steps, weights: Weights, kept: Matrix):
     """`march_lanes` for eight balls or fewer."""
-    march_lanes(EIGHT, frames, balls, run, weights, ends, doubt, kept)
+    march_lanes(EIGHT, frames, balls, ends, h, steps, weights, kept)
 
 
-def march_alone(frames: Frames, balls: Balls, run: Run, weights: Weights, ends: Ends, doubt: Vector, kept: Matrix):
+def march_alone(frames: Frames, balls: Balls, ends: Ends, h: float, steps: Steps, weights: Weights, kept: Matrix):
     """`march_lanes` for one ball."""
-    march_lanes(1, frames, balls, run, weights, ends, doubt, kept)
+    march_lanes(1, frames, balls, ends, h, steps, weights, kept)

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from .text import Cube, Matrix, Vector
+from .text import Cube, Doubles, Integers, Matrix, Vector
 
 
 class Steps(NamedTuple):
@@ -42,3 +42,30 @@ class Track(NamedTuple):
     attitudes: Matrix
     traces: Matrix
     follows: bool
+
+
+class Balls(NamedTuple):
+    """The balls: J (balls, 3), D and the radius, (balls,)."""
+
+    tensor: Matrix
+    contact: Vector
+    radius: Vector
+
+
+class Frames(NamedTuple):
+    """Frames of balls, (balls, frames, ...), with K for 𝒦; follows, traced: whether there are attitudes and traces."""
+
+    momenta: Cube
+    verticals: Cube
+    attitudes: Cube
+    traces: Cube
+    follows: bool
+    traced: bool
+
+
+class Ends(NamedTuple):
+    """The outcome of each ball, (balls,): the steps taken, or the last frame; why not all are; and the reach."""
+
+    taken: Integers
+    status: Integers
+    reach: Doubles
