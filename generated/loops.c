@@ -89,6 +89,7 @@ typedef struct { r2 state, radius, enough, past, body; r1 scale; } Block;
 typedef struct { i1 taken, status; d1 reach; } Ends;
 typedef struct { r3 momenta, verticals, attitudes, traces; int follows, traced; } Frames;
 typedef struct { r1 state; r2 limits, past; r1 attitude, contact; real radius; } Moving;
+typedef struct { r2 slopes; r1 box; r2 spread; } Proof;
 typedef struct { real w, m, rest, shift, curved; } Root;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { real a0, a1, a2; } t_r3;
@@ -97,6 +98,7 @@ typedef struct { t_r4 p; t_r3 w; real first; t_r3 d; t_r9 cofactors; } Round;
 typedef struct { r1 c; r3 weights; } Stages;
 typedef struct { r2 momentum, gamma, tensor; r1 contact; } Start;
 typedef struct { int64_t first, last, every; } Steps;
+typedef struct { r1 momentum, gamma, attitude, tensor; real contact, radius; } Still;
 typedef struct { r2 momenta, verticals, attitudes, traces; int follows; } Track;
 typedef struct { r2 sums; r3 following; r2 beginning; } Weights;
 typedef struct { real a0, a1; } t_r2;
@@ -2205,8 +2207,7 @@ INLINE t_r2 double_double_bounds(t_r3 k, t_r3 I, real D) {
     return gibbs_certificate(k, I, D);
 }
 
-OUT_OF_LINE t_i2 double_double_prepare_pairs(r1 momentum, r1 g, r1 tensor, real contact, r2 c, r1 state, r1 radius, r1
-    enough) {
+OUT_OF_LINE t_i2 double_double_prepare_pairs(r1 momentum, r1 g, r1 tensor, real contact, r2 c, r1 state, r2 limits) {
     t_r3 k, inertia; t_i2 shift = double_double_scales(momentum, tensor, contact);
     int64_t size = shift.a1 - shift.a0 - 1;
     for (int64_t i = 0; i < 3; i++) {
@@ -2222,7 +2223,8 @@ OUT_OF_LINE t_i2 double_double_prepare_pairs(r1 momentum, r1 g, r1 tensor, real 
     for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
         k = vectors_scaled(AT2(c, i, 0), double_double_highs__p3_(double_double_three_pairs(state, 0)));
         inertia = double_double_highs__p3_(double_double_three_pairs(state, 12));
-        t_r2 t_4 = double_double_bounds(k, inertia, state.p[21]); radius.p[i] = t_4.a0; enough.p[i] = t_4.a1;
+        t_r2 t_4 = double_double_bounds(k, inertia, state.p[21]); AT2(limits, 0, i) = t_4.a0;
+        AT2(limits, 1, i) = t_4.a1;
     }
     return (t_i2){shift.a0, shift.a1};
 }
@@ -2798,17 +2800,17 @@ INLINE void double_double_write(r1 frame, r1 frame_, r1 pairs, int64_t at, int64
     }
 }
 
-INLINE t_i2r double_double_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 past, int64_t first, int64_t count,
-    int64_t every, int64_t shift, int64_t beyond, r2 momenta, r2 momenta_, r2 verticals, r2 verticals_, int with_body,
-    r1 attitude, r1 contact, real rho, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_, r2 slopes, r1 box, r2
-    spread) {
-    t_ir_p3_ status; t_p3 k, g, inertia, part; t_r2 stretched; int64_t frame; int proves = spread.n0 > 0;
+INLINE t_i2r double_double_march_pairs(Moving ball, r2 c, Steps steps, int64_t shift, int64_t beyond, Track track,
+    Track low, Proof proof) {
+    r2 past; t_ir_p3_ status; t_p3 k, g, inertia, part; t_r2 stretched; int64_t frame; r1 state = ball.state;
+    r2 slopes = proof.slopes; r1 box = proof.box; int proves = proof.spread.n0 > 0;
     int64_t period = max_i(1, div_i(1024, c.n0));
-    for (int64_t step = first + 1, end_step = first + count + 1; step < end_step; step++) {
+    for (int64_t step = steps.first + 1, end_step = steps.last + 1; step < end_step; step++) {
         for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
-            status = double_double_stage_r1pr2r2(state, (t_r2){AT2(c, i, 0), AT2(c, i, 1)}, radius.p[i], enough.p[i],
-                r3_row(past, i));
-            if (status.a0 != 0) { return (t_i2r){step - 1 - first, status.a0, status.a1}; }
+            past = r2_part(ball.past, 8 * i, 8 * i + 8);
+            status = double_double_stage_r1pr2r2(state, (t_r2){AT2(c, i, 0), AT2(c, i, 1)}, AT2(ball.limits, 0, i),
+                AT2(ball.limits, 1, i), past);
+            if (status.a0 != 0) { return (t_i2r){step - 1 - steps.first, status.a0, status.a1}; }
             if (proves) {
                 k = double_double_three_pairs(state, 0); g = double_double_three_pairs(state, 6);
                 inertia = double_double_three_pairs(state, 12);
@@ -2816,7 +2818,9 @@ INLINE t_i2r double_double_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 
                 proved_carried_r1_p3_4r3(box, status.a2, part, g, inertia, state.p[21], AT2(slopes, i, 0), AT2(slopes,
                     i, 1));
             }
-            if (with_body) { double_double_follow_body__p3_r13r(status.a2, state, attitude, contact, rho); }
+            if (track.follows) {
+                double_double_follow_body__p3_r13r(status.a2, state, ball.attitude, ball.contact, ball.radius);
+            }
             double_double_put_pairs_r1i_p3_(state, 0, double_double_turned__p3_2(status.a2,
                 double_double_three_pairs(state, 0)));
             double_double_put_pairs_r1i_p3_(state, 6, double_double_turned__p3_2(status.a2,
@@ -2829,31 +2833,31 @@ INLINE t_i2r double_double_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 
                 box.p[13] = t_1; box.p[14] = t_2;
             }
         }
-        if (mod_i(step, every) == 0) {
-            frame = div_i(step, every);
-            if (proves) { proved_write_spread(r2_row(spread, frame), box); }
-            double_double_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, -shift);
-            double_double_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
-            if (with_body) {
-                double_double_write(r2_row(attitudes, frame), r2_row(attitudes_, frame), attitude, 0, 0);
-                double_double_write(r2_row(traces, frame), r2_row(traces_, frame), contact, 0, -beyond);
+        if (mod_i(step, steps.every) == 0) {
+            frame = div_i(step, steps.every);
+            if (proves) { proved_write_spread(r2_row(proof.spread, frame), box); }
+            double_double_write(r2_row(track.momenta, frame), r2_row(low.momenta, frame), state, 0, -shift);
+            double_double_write(r2_row(track.verticals, frame), r2_row(low.verticals, frame), state, 6, 0);
+            if (track.follows) {
+                double_double_write(r2_row(track.attitudes, frame), r2_row(low.attitudes, frame), ball.attitude, 0,
+                    0);
+                double_double_write(r2_row(track.traces, frame), r2_row(low.traces, frame), ball.contact, 0, -beyond);
             }
         }
     }
-    return (t_i2r){count, 0, R(1.0)};
+    return (t_i2r){steps.last - steps.first, 0, R(1.0)};
 }
 
-INLINE void double_double_prepare_pairs_block(r2 momentum, r2 g, r2 tensor, r1 contact, r2 c, r2 state, i1 shift, i1
-    beyond) {
-    int64_t i; ALIGNED real one_[28]; r1 one = {one_, 28}; ALIGNED real radius_[1]; r1 radius = {radius_, 1};
-    ALIGNED real enough_[1]; r1 enough = {enough_, 1}; int64_t last = contact.n0 - 1;
+INLINE void double_double_prepare_pairs_block(Start start, r2 c, r2 state, i1 shift, i1 beyond) {
+    int64_t i; ALIGNED real one_[28]; r1 one = {one_, 28}; ALIGNED real limits_[2 * 1];
+    r2 limits = {limits_, 2, 1, 1}; int64_t last = start.contact.n0 - 1;
     for (int64_t lane = 0, end_lane = state.n1; lane < end_lane; lane++) {
         i = min_i(lane, last);
-        t_i2 t_1 = double_double_prepare_pairs(r2_row(momentum, i), r2_row(g, i), r2_row(tensor, i), contact.p[i], c,
-            one, radius, enough);
+        t_i2 t_1 = double_double_prepare_pairs(r2_row(start.momentum, i), r2_row(start.gamma, i), r2_row(start.tensor,
+            i), start.contact.p[i], c, one, limits);
         shift.p[i] = t_1.a0; beyond.p[i] = t_1.a1;
         for (int64_t row = 0; row < 52; row++) { AT2(state, row, lane) = row < 28 ? one.p[row] : R(0.0); }
-        AT2(state, 52, lane) = radius.p[0]; AT2(state, 53, lane) = enough.p[0];
+        AT2(state, 52, lane) = AT2(limits, 0, 0); AT2(state, 53, lane) = AT2(limits, 1, 0);
     }
 }
 
@@ -2918,23 +2922,23 @@ INLINE int64_t double_double_corrected(r2 S, r2 P, i1 ok) {
 }
 
 INLINE t_r3 double_double_lows__p3_(t_p3 v) { return (t_r3){v.a0.a1, v.a1.a1, v.a2.a1}; }
-OUT_OF_LINE void double_double_mend(r2 S, r2 P, i1 ok, int64_t step, i1 taken, i1 status, d1 reach) {
-    t_p3 u;
+OUT_OF_LINE void double_double_mend(r2 S, r2 P, i1 ok, int64_t step, Ends ends) {
+    t_r2 one; t_p3 u;
     for (int64_t i = 0; i < 16; i++) {
         if (ok.p[i] == 1) { continue; }
         vectors_put_in(P, 0, i, (t_r3){R(0.0), R(0.0), R(0.0)});
         vectors_put_in(P, 19, i, (t_r3){R(0.0), R(0.0), R(0.0)});
-        if (i < status.n0 && status.p[i] == 0) {
+        if (i < ends.status.n0 && ends.status.p[i] == 0) {
             real s_[S.n0]; r1 s = {s_, S.n0};
             for (int64_t i_ = 0; i_ < S.n0; i_++) { s_[i_] = AT2(S, i_, i); }
-            t_ir_p3_ t_1 = double_double_stage_r1pr2r2(s, (t_r2){R(1.0), R(0.0)}, s.p[52], s.p[53], (r2){r1_part(s,
-                28, 52).p, 8, 3, 3});
-            status.p[i] = t_1.a0; reach.p[i] = t_1.a1; u = t_1.a2;
-            if (status.p[i] == 0) {
+            one = (t_r2){R(1.0), R(0.0)};
+            t_ir_p3_ t_1 = double_double_stage_r1pr2r2(s, one, s.p[52], s.p[53], (r2){r1_part(s, 28, 52).p, 8, 3, 3});
+            ends.status.p[i] = t_1.a0; ends.reach.p[i] = t_1.a1; u = t_1.a2;
+            if (ends.status.p[i] == 0) {
                 vectors_put_in(P, 0, i, double_double_highs__p3_(u));
                 vectors_put_in(P, 19, i, double_double_lows__p3_(u)); continue;
             }
-            taken.p[i] = step;
+            ends.taken.p[i] = step;
         }
         AT2(S, 52, i) = R(-1.0);
     }
@@ -2964,15 +2968,15 @@ INLINE void double_double_all_turned(r2 S, r2 P) {
     }
 }
 
-INLINE void double_double_march_pairs_block(r2 state, int64_t first, int64_t count, int64_t every, i1 shift, r3
-    momenta, r3 momenta_, r3 verticals, r3 verticals_, i1 taken, i1 status, d1 reach) {
-    int64_t bad, rounds, frame; ALIGNED real S_[54 * 16]; r2 S = {S_, 54, 16, 16}; ALIGNED real P_[22 * 16];
-    r2 P = {P_, 22, 16, 16}; ALIGNED int64_t ok_[16]; i1 ok = {ok_, 16}; block_carry(state, S, 16);
-    for (int64_t step = first, end_step = first + count; step < end_step; step++) {
+INLINE void double_double_march_pairs_block(r2 state, Steps steps, i1 shift, Frames frames, Frames low, Ends ends) {
+    int64_t bad, rounds, frame; i1 status = ends.status; ALIGNED real S_[54 * 16]; r2 S = {S_, 54, 16, 16};
+    ALIGNED real P_[22 * 16]; r2 P = {P_, 22, 16, 16}; ALIGNED int64_t ok_[16]; i1 ok = {ok_, 16};
+    block_carry(state, S, 16);
+    for (int64_t step = steps.first, end_step = steps.last; step < end_step; step++) {
         bad = double_double_approached(S, P, ok, 0); rounds = 1;
         while (bad != 0 && rounds < 4) { bad = double_double_approached(S, P, ok, 1); rounds = rounds + 1; }
         double_double_residuals(S, P);
-        if (double_double_corrected(S, P, ok) != 0) { double_double_mend(S, P, ok, step, taken, status, reach); }
+        if (double_double_corrected(S, P, ok) != 0) { double_double_mend(S, P, ok, step, ends); }
         double_double_all_turned(S, P);
         if (mod_i(step + 1, 1024) == 0) {
             for (int64_t i = 0; i < 16; i++) {
@@ -2982,22 +2986,22 @@ INLINE void double_double_march_pairs_block(r2 state, int64_t first, int64_t cou
                 for (int64_t row = 0; row < 28; row++) { AT2(S, row, i) = one.p[row]; }
             }
         }
-        if (mod_i(step + 1, every) == 0) {
-            frame = div_i(step + 1, every);
+        if (mod_i(step + 1, steps.every) == 0) {
+            frame = div_i(step + 1, steps.every);
             for (int64_t i = 0, end_i = status.n0; i < end_i; i++) {
                 if (status.p[i] == 0) {
                     real one_[S.n0]; r1 one = {one_, S.n0};
                     for (int64_t i_ = 0; i_ < S.n0; i_++) { one_[i_] = AT2(S, i_, i); }
-                    double_double_write(r2_row(r3_row(momenta, i), frame), r2_row(r3_row(momenta_, i), frame), one, 0,
-                        -(int64_t)shift.p[i]);
-                    double_double_write(r2_row(r3_row(verticals, i), frame), r2_row(r3_row(verticals_, i), frame),
-                        one, 6, 0);
+                    double_double_write(r2_row(r3_row(frames.momenta, i), frame), r2_row(r3_row(low.momenta, i),
+                        frame), one, 0, -(int64_t)shift.p[i]);
+                    double_double_write(r2_row(r3_row(frames.verticals, i), frame), r2_row(r3_row(low.verticals, i),
+                        frame), one, 6, 0);
                 }
             }
         }
     }
     for (int64_t i = 0, end_i = status.n0; i < end_i; i++) {
-        if (status.p[i] == 0) { taken.p[i] = first + count; }
+        if (status.p[i] == 0) { ends.taken.p[i] = steps.last; }
     }
     block_carry(S, state, 16);
 }
@@ -3010,10 +3014,11 @@ INLINE t_p4 vectors_conjugate__p4_(t_p4 q) {
     return (t_p4){q.a0, (t_r2){-q.a1.a0, -q.a1.a1}, (t_r2){-q.a2.a0, -q.a2.a1}, (t_r2){-q.a3.a0, -q.a3.a1}};
 }
 
-INLINE t_ir_p4_p2 double_double_column__p3_2_p4_p2ir1r3(t_p3 k, t_p3 g, t_p4 a, t_r2 x, t_r2 y, int64_t n, r1 state,
-    real radius, real enough, real rho) {
+INLINE t_ir_p4_p2 double_double_column__p3_2_p4_ir1r3(t_p3 k, t_p3 g, t_p4 a, int64_t n, r1 state, real radius, real
+    enough, real rho) {
     t_p3 w; t_p3 inertia = double_double_three_pairs(state, 12); t_r3 tensor = vectors_three(state, 18);
-    real contact = state.p[21]; t_r3 t_1 = double_double_highs__p3_(k), t_2 = double_double_highs__p3_(g);
+    real contact = state.p[21]; t_r2 x = (t_r2){R(0.0), R(0.0)}, y = (t_r2){R(0.0), R(0.0)};
+    t_r3 t_1 = double_double_highs__p3_(k), t_2 = double_double_highs__p3_(g);
     t_r3 u = kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, tensor.a0, tensor.a1, tensor.a2,
         contact);
     t_r3 v = u; int64_t status = 0; real reach = R(1.0);
@@ -3044,20 +3049,18 @@ INLINE t_r2 vectors_dot_four__p4_2(t_p4 a, t_p4 b) {
         pairs_loose_multiply(a.a1, b.a1)), pairs_loose_multiply(a.a2, b.a2)), pairs_loose_multiply(a.a3, b.a3));
 }
 
-INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real contact, real h, real h_, int64_t
-    first, int64_t count, int64_t every, r2 weights, real rho, int follows, r1 attitude, r1 body, r2 momenta, r2
-    momenta_, r2 verticals, r2 verticals_, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
+INLINE t_i2r2 double_double_march_long_pairs(Still ball, real h, real h_, r2 weights, Steps steps, r1 body, Track
+    track, Track low) {
     t_p4 sums, changes; t_r2 x_, y_, f, weight, change, length; t_p3 k_body, g_body; int64_t n, frame;
     t_ir_p4_p2 status; int64_t columns = weights.n0; real doubt = R(0.0); t_r2 zero = (t_r2){R(0.0), R(0.0)};
     ALIGNED real state_[28]; memset(state_, 0, sizeof state_); r1 state = {state_, 28}; ALIGNED real one_[1 * 2];
     memset(one_, 0, sizeof one_); r2 one = {one_, 1, 2, 2}; ALIGNED real limits_[2 * columns];
     memset(limits_, 0, sizeof limits_); r2 limits = {limits_, 2, columns, columns}; AT2(one, 0, 0) = R(1.0);
-    t_ri size = real_frexp(vectors_largest(vectors_three(momentum, 0))), mantissa = real_frexp(h);
-    t_r3 k = vectors_shifted(vectors_three(momentum, 0), -size.a1); ALIGNED real part_[3];
+    t_ri size = real_frexp(vectors_largest(vectors_three(ball.momentum, 0))), mantissa = real_frexp(h);
+    t_r3 k = vectors_shifted(vectors_three(ball.momentum, 0), -size.a1); ALIGNED real part_[3];
     memset(part_, 0, sizeof part_); r1 part = {part_, 3};
     vectors_put(part, 0, vectors_shifted(k, min_i(size.a1 + mantissa.a1, 1000)));
-    t_i2 shift = double_double_prepare_pairs(part, g, tensor, contact, one, state, r2_row(limits, 0), r2_row(limits,
-        1));
+    t_i2 shift = double_double_prepare_pairs(part, ball.gamma, ball.tensor, ball.contact, one, state, limits);
     real half = R(ldexp(mantissa.a0, (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
     real half_ = R(ldexp(R(ldexp(h_, (int)-mantissa.a1)), (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
     for (int64_t j = 0, end_j = columns; j < end_j; j++) {
@@ -3065,23 +3068,23 @@ INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real 
             double_double_highs__p3_(double_double_three_pairs(state, 12)), state.p[21]);
         AT2(limits, 0, j) = t_1.a0; AT2(limits, 1, j) = t_1.a1;
     }
-    t_p4 a = (t_p4){double_double_pair(attitude, 0), double_double_pair(attitude, 2), double_double_pair(attitude, 4),
-        double_double_pair(attitude, 6)};
+    t_p4 a = (t_p4){double_double_pair(ball.attitude, 0), double_double_pair(ball.attitude, 2),
+        double_double_pair(ball.attitude, 4), double_double_pair(ball.attitude, 6)};
     t_p3 K_ = double_double_rotated__p4__p3_(a, (t_p3){(t_r2){k.a0, R(0.0)}, (t_r2){k.a1, R(0.0)}, (t_r2){k.a2,
         R(0.0)}});
     t_p3 g_ = double_double_rotated__p4__p3_(a, double_double_three_pairs(state, 6));
     a = (t_p4){double_double_pair(body, 0), double_double_pair(body, 2), double_double_pair(body, 4),
         double_double_pair(body, 6)};
     t_r2 x = double_double_pair(body, 8), y = double_double_pair(body, 10);
-    for (int64_t step = first, end_step = first + count; step < end_step; step++) {
+    for (int64_t step = steps.first, end_step = steps.last; step < end_step; step++) {
         sums = (t_p4){zero, zero, zero, zero}; changes = (t_p4){zero, zero, zero, zero}; x_ = zero; y_ = zero;
         k_body = double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), K_);
         g_body = double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), g_);
         for (int64_t j = 0, end_j = columns; j < end_j; j++) {
             n = 3 + j; f = pairs_divide((t_r2){half, half_}, (t_r2){n * R(1.0), 0});
-            status = double_double_column__p3_2_p4_p2ir1r3(double_double_normalised__p3_(vectors_scaled_p_p3_(f,
-                k_body)), g_body, a, zero, zero, n, state, AT2(limits, 0, j), AT2(limits, 1, j), rho);
-            if (status.a0 != 0) { return (t_i2r2){step - first, status.a0, status.a1, doubt}; }
+            status = double_double_column__p3_2_p4_ir1r3(double_double_normalised__p3_(vectors_scaled_p_p3_(f,
+                k_body)), g_body, a, n, state, AT2(limits, 0, j), AT2(limits, 1, j), ball.radius);
+            if (status.a0 != 0) { return (t_i2r2){step - steps.first, status.a0, status.a1, doubt}; }
             weight = (t_r2){AT2(weights, j, 0), AT2(weights, j, 1)};
             change = (t_r2){AT2(weights, j, 2), AT2(weights, j, 3)};
             sums = double_double_with_shares__p4_p_p4_(sums, weight, status.a2);
@@ -3099,19 +3102,19 @@ INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real 
         double_double_put_pair_r1ip(body, 10, y);
         t_r3 t_5 = double_double_highs__p3_((t_p3){changes.a1, changes.a2, changes.a3});
         doubt = doubt + R(2.0) * R(sqrt(vectors_square_of_four((t_r4){changes.a0.a0, t_5.a0, t_5.a1, t_5.a2})));
-        if (mod_i(step + 1, every) == 0) {
-            frame = div_i(step + 1, every);
+        if (mod_i(step + 1, steps.every) == 0) {
+            frame = div_i(step + 1, steps.every);
             double_double_put_pairs_r1i_p3_(state, 0, double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), K_));
             double_double_put_pairs_r1i_p3_(state, 6, double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), g_));
-            double_double_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, size.a1);
-            double_double_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
-            if (follows) {
-                double_double_write(r2_row(attitudes, frame), r2_row(attitudes_, frame), body, 0, 0);
-                double_double_write(r2_row(traces, frame), r2_row(traces_, frame), body, 8, -shift.a1);
+            double_double_write(r2_row(track.momenta, frame), r2_row(low.momenta, frame), state, 0, size.a1);
+            double_double_write(r2_row(track.verticals, frame), r2_row(low.verticals, frame), state, 6, 0);
+            if (track.follows) {
+                double_double_write(r2_row(track.attitudes, frame), r2_row(low.attitudes, frame), body, 0, 0);
+                double_double_write(r2_row(track.traces, frame), r2_row(low.traces, frame), body, 8, -shift.a1);
             }
         }
     }
-    return (t_i2r2){count, 0, R(1.0), doubt};
+    return (t_i2r2){steps.last - steps.first, 0, R(1.0), doubt};
 }
 
 INLINE t_r2 proved_slope_of(t_r3 k, t_r3 I, real D) {
@@ -4129,31 +4132,33 @@ static void in_vertical_loop_march(const argument *a, argument *got) {
 }
 
 static void in_double_double_prepare_pairs(const argument *a, argument *got) {
-    t_i2 out = double_double_prepare_pairs(r1_(0), r1_(1), r1_(2), r_(3), r2_(4), r1_(5), r1_(6), r1_(7));
+    t_i2 out = double_double_prepare_pairs(r1_(0), r1_(1), r1_(2), r_(3), r2_(4), r1_(5), r2_(6));
     got[0].integer = out.a0; got[1].integer = out.a1;
 }
 
 WIDER static void in_double_double_march_pairs(const argument *a, argument *got) {
-    t_i2r out = double_double_march_pairs(r1_(0), r2_(1), r1_(2), r1_(3), r3_(4), i_(5), i_(6), i_(7), i_(8), i_(9),
-        r2_(10), r2_(11), r2_(12), r2_(13), b_(14), r1_(15), r1_(16), r_(17), r2_(18), r2_(19), r2_(20), r2_(21),
-        r2_(22), r1_(23), r2_(24));
+    t_i2r out = double_double_march_pairs((Moving){r1_(0), r2_(1), r2_(2), r1_(3), r1_(4), r_(5)}, r2_(6),
+        (Steps){i_(7), i_(8), i_(9)}, i_(10), i_(11), (Track){r2_(12), r2_(13), r2_(14), r2_(15), b_(16)},
+        (Track){r2_(17), r2_(18), r2_(19), r2_(20), b_(21)}, (Proof){r2_(22), r1_(23), r2_(24)});
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2;
 }
 
 static void in_double_double_prepare_pairs_block(const argument *a, argument *got) {
-    double_double_prepare_pairs_block(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), r2_(5), i1_(6), i1_(7)); (void)got;
+    double_double_prepare_pairs_block((Start){r2_(0), r2_(1), r2_(2), r1_(3)}, r2_(4), r2_(5), i1_(6), i1_(7));
+    (void)got;
 }
 
 WIDEST static void in_double_double_march_pairs_block(const argument *a, argument *got) {
-    double_double_march_pairs_block(r2_(0), i_(1), i_(2), i_(3), i1_(4), r3_(5), r3_(6), r3_(7), r3_(8), i1_(9),
-        i1_(10), d1_(11));
+    double_double_march_pairs_block(r2_(0), (Steps){i_(1), i_(2), i_(3)}, i1_(4), (Frames){r3_(5), r3_(6), r3_(7),
+        r3_(8), b_(9), b_(10)}, (Frames){r3_(11), r3_(12), r3_(13), r3_(14), b_(15), b_(16)}, (Ends){i1_(17), i1_(18),
+        d1_(19)});
     (void)got;
 }
 
 WIDER static void in_double_double_march_long_pairs(const argument *a, argument *got) {
-    t_i2r2 out = double_double_march_long_pairs(r1_(0), r1_(1), r1_(2), r_(3), r_(4), r_(5), i_(6), i_(7), i_(8),
-        r2_(9), r_(10), b_(11), r1_(12), r1_(13), r2_(14), r2_(15), r2_(16), r2_(17), r2_(18), r2_(19), r2_(20),
-        r2_(21));
+    t_i2r2 out = double_double_march_long_pairs((Still){r1_(0), r1_(1), r1_(2), r1_(3), r_(4), r_(5)}, r_(6), r_(7),
+        r2_(8), (Steps){i_(9), i_(10), i_(11)}, r1_(12), (Track){r2_(13), r2_(14), r2_(15), r2_(16), b_(17)},
+        (Track){r2_(18), r2_(19), r2_(20), r2_(21), b_(22)});
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2; got[3].number = out.a3;
 }
 
@@ -4193,11 +4198,11 @@ const loop_export LOOPS()[] = {
 #ifndef SINGLE
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1* r1 r i i i r2* r1*", "b", in_vertical_loop_march},
-    {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_prepare_pairs},
-    {"double_double_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2* r2 r1* r2*", "iir", in_double_double_march_pairs},
+    {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r2*", "ii", in_double_double_prepare_pairs},
+    {"double_double_march_pairs", "r1* r2* r2* r1* r1* r* r2 i i i i i r2* r2* r2* r2* b* r2* r2* r2* r2* b* r2* r1* r2*", "iir", in_double_double_march_pairs},
     {"double_double_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_prepare_pairs_block},
-    {"double_double_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_march_pairs_block},
-    {"double_double_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_march_long_pairs},
+    {"double_double_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* b* b* r3* r3* r3* r3* b* b* i1* i1* d1*", "", in_double_double_march_pairs_block},
+    {"double_double_march_long_pairs", "r1 r1 r1 r1 r r r r r2 i i i r1* r2* r2* r2* r2* b* r2* r2* r2* r2* b*", "iirr", in_double_double_march_long_pairs},
     {"proved_bound_steps", "r2 r2 r2 r1 r2 r2 r2 r2*", "", in_proved_bound_steps},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
     {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "rr", in_expected_surveyed},
@@ -4207,6 +4212,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "c62dc32453128945af05b19d661140c4daa3b6a0455f3bc4e8874a72bad5d9c2";
+const char loops_text[] = "474bcebcb09d63c9de813ed287c56e6b6eaa177980111045379e793544c56d00";
 #endif
 #endif

@@ -19,7 +19,7 @@ from .ball import Asked, Ball, Floats, batch, is_followed, is_unit, is_vector, n
 from .errors import BadInput, Status, StepNotTaken
 from .levels import dispatch, double, double_double, proved
 from .levels.dispatch import no_room
-from .levels.frames import Balls
+from .levels.frames import Balls, parts
 from .loops import loop
 from .loops.loop import G, K
 from .loops.records import Moving, Steps, Track
@@ -404,7 +404,7 @@ class Proof:
         self._frames = self._rows("double-double", attitude if ball._follows else None)
         self._spread = np.array([[proved.PAIR] * 4, [np.inf] * 4])
         stages = double_double.coefficients(ball.order)
-        self._run = double_double.OneBall(self._balls, 0, self._frames, self._frames.low, stages, proves=True)
+        self._run = double_double.OneBall(self._balls, 0, self._frames, stages, proves=True)
         self._run.begin_at(spot)
 
     def _rows(self, precision: str, attitude: Asked) -> Any:
@@ -414,11 +414,10 @@ class Proof:
     def bounds(self, ball: Stepper) -> Bounds:
         """The bounds of the present state of a Stepper."""
         steps, now = ball._taken - self._taken, min(ball._taken, 1)
-        for first in range(0, steps, double_double.CHUNK):  # can be interrupted between two of them
-            count = min(double_double.CHUNK, steps - first)
-            went, _, _ = self._run.take(first, count, steps, self._frames, self._frames.low, 0, self._spread)
-            self._taken += count
-            if went < count:
+        for part in parts(Steps(0, steps, steps), double_double.CHUNK):  # can be interrupted between two of them
+            went, _, _ = self._run.take(part, self._spread)
+            self._taken += part.last - part.first
+            if went < part.last - part.first:
                 self._run.lose()
                 self._spread[:], self._taken = np.inf, ball._taken
                 break

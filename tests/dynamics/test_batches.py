@@ -101,7 +101,7 @@ def block_of(n):
     ball, K, g = long_steps(n)
     stages = records.Stages(np.ones(1), stage_weights((1.0,)))
     rows = (np.zeros((rows, block.LANES)) for rows in (loop.ROWS, 1, 1, 3 * stages.weights.shape[1], 7))
-    start = block.Start(K, g, np.tile(ball.mass_tensor, (n, 1)), np.full(n, ball.D))
+    start = records.Start(K, g, np.tile(ball.mass_tensor, (n, 1)), np.full(n, ball.D))
     frames = records.Frames(*(np.zeros((n, *shape)) for shape in ((1, 3), (1, 3), (0, 4), (0, 2))), False, False)
     ends = records.Ends(np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n))
     of, rest = (block.Block(*rows, np.zeros(n)), stages), (start, np.ones(n), frames, ends, np.zeros((n, 6)))

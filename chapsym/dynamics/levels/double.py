@@ -17,7 +17,7 @@ import chapsym.dynamics.native as native
 from ..ball import Floats, largest_moment
 from ..coefficients import substeps
 from ..errors import BadInput, Status, explain
-from ..loops import block, gibbs, loop
+from ..loops import block, gibbs, loop, records
 from ..loops.guess import stage_weights
 from ..loops.records import Moving, Stages, Steps
 from .frames import Balls, Count, Frames, cores, parts, share
@@ -146,7 +146,7 @@ def _run_blocks(
     state, past = np.zeros((loop.ROWS, lanes), of.dtype), np.empty((3 * stages.weights.shape[1], lanes), of.dtype)
     radius, enough = np.empty((2, len(c), lanes), of.dtype)
     kept = block.Block(state, radius, enough, past, np.empty((7, lanes), of.dtype), np.empty(n, of.dtype))
-    start = block.Start(*(x[which] for x in (balls.momentum, balls.gamma, balls.mass_tensor, balls.D)))
+    start = records.Start(*(x[which] for x in (balls.momentum, balls.gamma, balls.mass_tensor, balls.D)))
     some, ends, ended = frames.some(which), frames.ends(which), np.empty((n, 6), of.dtype)
     march, rho, status = of.loop(block.march_blocks), np.ascontiguousarray(balls.radius[which]), ends.status
     for part in parts(steps, CHUNK // (n * len(c))):

@@ -14,8 +14,9 @@ from ..coefficients import COMPOSITIONS
 from ..errors import Status, explain
 from ..loops import double_double as loop
 from ..loops import proved as loops_proved
+from ..loops.records import Moving, Start, Steps
 from . import proved
-from .frames import Balls, Count, Frames, cores, share
+from .frames import Balls, Count, Frames, cores, parts, share
 
 #: The fewest steps that are worth threads: a few milliseconds.
 SHORT_RUN = 20_000
@@ -33,8 +34,6 @@ def run(
 
     spread: (n, frames, 4); `loops.proved` writes bounds of the distance of the exact orbit there.
     """
-    low = frames.low
-    assert low is not None
     stages = coefficients(order)
     count, n = Count(progress), len(balls.D)
     work = steps * n * len(stages)
@@ -44,10 +43,10 @@ def run(
 
     def task(start: int) -> None:
         if in_blocks:
-            _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, low, stages, count)
+            _run_block(balls, slice(start, min(n, start + width)), Steps(0, steps, every), frames, stages, count)
         else:
             kept = np.empty((0, 4)) if spread is None else spread[start]
-            _run_one(balls, start, steps, every, frames, low, stages, count, kept)
+            _run_one(balls, start, Steps(0, steps, every), frames, stages, count, kept)
 
     share(task, starts, min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1, count)
 
@@ -86,8 +85,9 @@ def _add(rest: Floats, state: Floats, shift: int) -> None:
     loop.remember_pairs(state)
 
 
-def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | None) -> tuple[Floats, Floats]:
+def _begin(frames: Frames, i: int, state: Floats, rest: Floats | None) -> tuple[Floats, Floats]:
     """Writes frame 0 of a ball, the attitude and the contact point as pairs."""
+    low = frames.halves
     frames.gamma[i, 0], low.gamma[i, 0] = state[loop.G : loop.I : 2], state[loop.G + 1 : loop.I : 2]
     low.momentum[i, 0] = 0.0 if rest is None else rest[i]
     attitude, contact = np.zeros((4, 2)), np.zeros(4)
@@ -103,83 +103,65 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
 class OneBall:
     """One ball in progress in double-double, with or without proved bounds of the distance of the exact orbit.
 
-    frames, low: their first frame is written; `take` writes its steps into its own arguments.
+    frames: the first one is written; `take` writes its steps into them.
     """
 
-    def __init__(self, balls: Balls, i: int, frames: Frames, low: Frames, stages: Floats, proves: bool = False) -> None:
-        self._march = native.loop(loop.march_pairs)
+    def __init__(self, balls: Balls, i: int, frames: Frames, stages: Floats, proves: bool = False) -> None:
+        self._march, self._stages = native.loop(loop.march_pairs), stages
         K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
-        self.state, limits, past = np.zeros(loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
-        self.shift, beyond = native.loop(loop.prepare_pairs)(K, g, J, D, stages, self.state, *limits)
+        state, limits, past = np.zeros(loop.ROWS), np.zeros((2, len(stages))), np.zeros((8 * len(stages), 3))
+        self.scales = self.shift, beyond = native.loop(loop.prepare_pairs)(K, g, J, D, stages, state, limits)
         if balls.rest is not None:
-            _add(balls.rest[i], self.state, self.shift)
-        body = _begin(frames, low, i, self.state, balls.rest)
-        self._taken = self.state, stages, *limits, past
-        self._body = frames.with_body, *body, float(balls.radius[i])
-        self._scales = self.shift, beyond
-        self._proof = proved.begun(self.state, stages, beyond) if proves else (np.empty((0, 2)), np.empty(0))
+            _add(balls.rest[i], state, self.shift)
+        body = _begin(frames, i, state, balls.rest)
+        self.moving = Moving(state, limits, past, *body, float(balls.radius[i]))
+        self._tracks = frames.of(i), frames.halves.of(i)
+        self._proof = proved.begun(state, stages, beyond) if proves else (np.empty((0, 2)), np.empty(0))
 
     def begin_at(self, spot: Floats) -> None:
         """Starts at a contact point that is not (0, 0)."""
-        self._body[2][::2] = spot
+        self.moving.contact[::2] = spot
 
     def lose(self) -> None:
         """Gives up the proof from this step on."""
         self._proof[1][loops_proved.BALL] = np.inf
 
-    def take(
-        self, first: int, count: int, every: int, frames: Frames, low: Frames, i: int, spread: Floats
-    ) -> tuple[int, int, float]:
-        """Takes `count` steps from `first` on, and keeps every `every`-th state of the ball i, and its spread."""
-        with_body, attitude, contact, radius = self._body
-        return self._march(
-            *self._taken, first, count, every, *self._scales,
-            frames.momentum[i], low.momentum[i], frames.gamma[i], low.gamma[i], with_body, attitude, contact, radius,
-            frames.attitude[i], low.attitude[i], frames.contact[i], low.contact[i], *self._proof, spread,
-        )  # fmt: skip
+    def take(self, steps: Steps, spread: Floats) -> tuple[int, int, float]:
+        """Takes steps, and keeps the states and their spread."""
+        proof = loop.Proof(*self._proof, spread)
+        return self._march(self.moving, self._stages, steps, *self.scales, *self._tracks, proof)
 
 
-def _run_one(
-    balls: Balls, i: int, steps: int, every: int, frames: Frames, low: Frames, stages: Floats, count: Count,
-    spread: Floats,
-) -> None:  # fmt: skip
-    ball = OneBall(balls, i, frames, low, stages, len(spread) > 0)
-    chunk = max(1, CHUNK // len(stages))
-    for first in range(0, steps, chunk):
-        now = min(chunk, steps - first)
-        went, frames.status[i], frames.reach[i] = ball.take(first, now, every, frames, low, i, spread)
+def _run_one(balls: Balls, i: int, steps: Steps, frames: Frames, stages: Floats, count: Count, spread: Floats) -> None:
+    ball = OneBall(balls, i, frames, stages, len(spread) > 0)
+    for part in parts(steps, CHUNK // len(stages)):
+        went, frames.status[i], frames.reach[i] = ball.take(part, spread)
         frames.taken[i] += went
-        count.add(now)
+        count.add(part.last - part.first)
         if count.stopped:
             return
         if frames.status[i] != Status.TAKEN:
-            K, g = np.ldexp(ball.state[:6:2], -ball.shift), ball.state[6:12:2]
+            K, g = np.ldexp(ball.moving.state[:6:2], -ball.shift), ball.moving.state[6:12:2]
             frames.status[i] = explain(frames.status[i], K, g, balls.mass_tensor[i], float(balls.D[i]))
             return
 
 
-def _run_block(
-    balls: Balls, which: slice, steps: int, every: int, frames: Frames, low: Frames, stages: Floats, count: Count
-) -> None:
+def _run_block(balls: Balls, which: slice, steps: Steps, frames: Frames, stages: Floats, count: Count) -> None:
     march, prepare = native.loop(loop.march_pairs_block), native.loop(loop.prepare_pairs_block)
     n = which.stop - which.start
     state = np.zeros((loop.ALL_ROWS, loop.LANES))
     shift, beyond = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
-    prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], stages,
-            state, shift, beyond)  # fmt: skip
+    start = Start(*(x[which] for x in (balls.momentum, balls.gamma, balls.mass_tensor, balls.D)))
+    prepare(start, stages, state, shift, beyond)
     for lane in range(n):
         if balls.rest is not None:
             _add(balls.rest[which.start + lane], state[:, lane], int(shift[lane]))
-        _begin(frames, low, which.start + lane, state[:, lane], balls.rest)
-    status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
-    chunk = max(1, CHUNK // loop.LANES)
-    for first in range(0, steps, chunk):
-        now = min(chunk, steps - first)
-        march(
-            state, first, now, every, shift, frames.momentum[which], low.momentum[which],
-            frames.gamma[which], low.gamma[which], taken, status, reach,
-        )  # fmt: skip
-        count.add(now * n)
+        _begin(frames, which.start + lane, state[:, lane], balls.rest)
+    some, low, ends = frames.some(which), frames.halves.some(which), frames.ends(which)
+    status = ends.status
+    for part in parts(steps, CHUNK // loop.LANES):
+        march(state, part, shift, some, low, ends)
+        count.add(n * (part.last - part.first))
         if count.stopped:
             return
         if status.all():  # all balls have stopped
@@ -195,9 +177,8 @@ def run_long(
     progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
     """Long steps of h seconds from K; frame 0 is rewritten as by `run`; returns the sum of the doubts, (n,)."""
-    low, doubt, count = frames.low, np.zeros(len(balls.D)), Count(progress)
-    assert low is not None
-    march, chunk = native.loop(loop.march_long_pairs), max(1, CHUNK // (len(weights) * loop.FIRST * 4))
+    low, doubt, count = frames.halves, np.zeros(len(balls.D)), Count(progress)
+    march = native.loop(loop.march_long_pairs)
 
     def task(i: int) -> None:
         g, body = normalised(balls.gamma[i]), np.zeros((6, 2))
@@ -208,18 +189,15 @@ def run_long(
         if frames.with_body:
             frames.attitude[i, 0], low.attitude[i, 0] = body[:4].T
             low.contact[i, 0] = 0.0
-        start = body[:4].reshape(-1).copy()
-        for first in range(0, steps, chunk):
-            now = min(chunk, steps - first)
+        start = balls.momentum[i], balls.gamma[i], body[:4].reshape(-1).copy(), balls.mass_tensor[i]
+        ball, tracks = loop.Still(*start, float(balls.D[i]), float(balls.radius[i])), (frames.of(i), low.of(i))
+        for part in parts(Steps(0, steps, every), CHUNK // (len(weights) * loop.FIRST * 4)):
             went, frames.status[i], frames.reach[i], more = march(
-                balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i]), *h.halves(), first, now,
-                every, weights, float(balls.radius[i]), frames.with_body, start, body.reshape(-1), frames.momentum[i],
-                low.momentum[i], frames.gamma[i], low.gamma[i], frames.attitude[i], low.attitude[i],
-                frames.contact[i], low.contact[i],
-            )  # fmt: skip
+                ball, *h.halves(), weights, part, body.reshape(-1), *tracks
+            )
             doubt[i] += more
             frames.taken[i] += went
-            count.add(now)
+            count.add(part.last - part.first)
             if frames.status[i] != Status.TAKEN:
                 doubt[i] = math.nan
             if count.stopped or frames.status[i] != Status.TAKEN:

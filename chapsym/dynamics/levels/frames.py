@@ -81,6 +81,12 @@ class Frames:
     low: "Frames | None" = None
     least: bool = False
 
+    @property
+    def halves(self) -> "Frames":
+        """The low halves of double-double numbers."""
+        assert self.low is not None
+        return self.low
+
     def of(self, i: int) -> records.Track:
         """The frames of one ball, for the loops."""
         return records.Track(self.momentum[i], self.gamma[i], self.attitude[i], self.contact[i], self.with_body)

@@ -16,7 +16,7 @@ from .integrals import PERIOD, integrals, restore, turned
 from .loop import ENOUGH, INTEGRALS, RADIUS, ROWS, D, G, I, J, K, X, followed, limits, safe_rotation, scaling, times
 from .path import MOST_ROUNDS as PATH_ROUNDS
 from .path import improved, proved
-from .records import Ends, Frames, Stages, Steps
+from .records import Ends, Frames, Stages, Start, Steps
 from .text import Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import four_in, plus, put, put_four, put_four_in, put_in, scaled, square, three, three_in, unit
 
@@ -36,15 +36,6 @@ P_ROWS, W, A = 12, 4, 9
 #: The most rounds for all lanes together if more than FEW did not converge; up to FEW are treated one by one.
 ROUNDS = 4
 FEW = 2
-
-
-class Start(NamedTuple):
-    """Balls before a step: 𝒦, γ and J, (balls, 3), and D, (balls,)."""
-
-    momentum: Matrix
-    gamma: Matrix
-    tensor: Matrix
-    contact: Vector
 
 
 class Block(NamedTuple):

@@ -18,6 +18,7 @@ steps.
 """
 
 from math import frexp, ldexp, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,7 +33,8 @@ from .integrals import PERIOD, filtered, shares
 from .loop import HIGHEST
 from .path import search_on_path
 from .proved import G_OFF, K_OFF, carried, exact, unit_pairs, write_spread
-from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
+from .records import Ends, Frames, Moving, Start, Steps, Track
+from .text import Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import (
     conjugate,
     dot,
@@ -244,10 +246,9 @@ ROWS = 28
 
 @out_of_line
 def prepare_pairs(
-    momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Matrix, state: Vector, radius: Vector,
-    enough: Vector,
-):  # fmt: skip
-    """Writes the initial state of a ball and the bounds of its stages; returns the exponents of `scales`."""
+    momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Matrix, state: Vector, limits: Matrix
+):
+    """Writes the initial state of a ball and the limits of its stages; returns the exponents of `scales`."""
     shift, beyond = scales(momentum, tensor, contact)
     size = beyond - shift - 1
     for i in range(3):
@@ -261,7 +262,7 @@ def prepare_pairs(
     remember_pairs(state)
     for i in range(c.shape[0]):
         k, inertia = scaled(c[i, 0], highs(three_pairs(state, K))), highs(three_pairs(state, I))
-        radius[i], enough[i] = bounds(k, inertia, state[D])
+        limits[0, i], limits[1, i] = bounds(k, inertia, state[D])
     return shift, beyond
 
 
@@ -337,48 +338,52 @@ def write(frame, frame_, pairs, at, exponent):
         frame[i], frame_[i] = ldexp(pairs[at + 2 * i], exponent), ldexp(pairs[at + 2 * i + 1], exponent)
 
 
-def march_pairs(
-    state: Vector, c: Matrix, radius: Vector, enough: Vector, past: Cube, first: int, count: int, every: int,
-    shift: int, beyond: int, momenta: Matrix, momenta_: Matrix, verticals: Matrix, verticals_: Matrix, with_body: bool,
-    attitude: Vector, contact: Vector, rho: float, attitudes: Matrix, attitudes_: Matrix, traces: Matrix,
-    traces_: Matrix, slopes: Matrix, box: Vector, spread: Matrix,
-):  # fmt: skip
-    """Takes `count` steps from step `first` on, each with the stages c (s, 2); stores every `every`-th state.
+class Proof(NamedTuple):
+    """The proof of a run: m and radius² of each stage, (s, 2), and the present set of ξ, (`proved.ROWS`).
 
-    state (ROWS), past (s, 8, 3), attitude (8) and contact (4) hold the present state and are updated; shift and beyond
-    are those of `scales`.  Names with _ are the low halves of frames.  Returns (taken, status, reach).
-    spread (frames, 4), or (0, 4) without proof: bounds for the distance of the exact orbit, from `write_spread`;
-    slopes (s, 2): m and radius² of each stage; box (`proved.ROWS`): the present set of ξ.
+    spread (frames, 4), or (0, 4) without proof: bounds for the distance of the exact orbit, from `write_spread`.
     """
-    proves = spread.shape[0] > 0
+
+    slopes: Matrix
+    box: Vector
+    spread: Matrix
+
+
+def march_pairs(ball: Moving, c: Matrix, steps: Steps, shift: int, beyond: int, track: Track, low: Track, proof: Proof):
+    """`loop.march` in pairs with the stages c, (s, 2); shift and beyond are those of `scales`, low: the low halves.
+
+    The state has ROWS numbers, the attitude 8, the contact point 4; past has 8 rows for each stage.
+    """
+    state, slopes, box, proves = ball.state, proof.slopes, proof.box, proof.spread.shape[0] > 0
     period = max(1, PERIOD // c.shape[0])
-    for step in range(first + 1, first + count + 1):
+    for step in range(steps.first + 1, steps.last + 1):
         for i in range(c.shape[0]):
-            status, reach, u = stage(state, Loose(c[i, 0], c[i, 1]), radius[i], enough[i], past[i])
+            past = ball.past[8 * i : 8 * i + 8]
+            status, reach, u = stage(state, Loose(c[i, 0], c[i, 1]), ball.limits[0, i], ball.limits[1, i], past)
             if status != TAKEN:
-                return step - 1 - first, status, reach
+                return step - 1 - steps.first, status, reach
             if proves:
                 k, g, inertia = three_pairs(state, K), three_pairs(state, G), three_pairs(state, I)
                 part = normalised(scaled(Loose(c[i, 0], c[i, 1]), k))
                 carried(box, u, part, g, inertia, state[D], slopes[i, 0], slopes[i, 1])
-            if with_body:
-                follow_body(u, state, attitude, contact, rho)
+            if track.follows:
+                follow_body(u, state, ball.attitude, ball.contact, ball.radius)
             put_pairs(state, K, turned(u, three_pairs(state, K)))
             put_pairs(state, G, turned(u, three_pairs(state, G)))
         if step % period == 0:
             stretched, moved = restore_pairs(state)
             if proves:
                 box[K_OFF], box[G_OFF] = box[K_OFF] + 2.0 * moved, box[G_OFF] + 2.0 * stretched
-        if step % every == 0:
-            frame = step // every
+        if step % steps.every == 0:
+            frame = step // steps.every
             if proves:
-                write_spread(spread[frame], box)
-            write(momenta[frame], momenta_[frame], state, K, -shift)
-            write(verticals[frame], verticals_[frame], state, G, 0)
-            if with_body:
-                write(attitudes[frame], attitudes_[frame], attitude, 0, 0)
-                write(traces[frame], traces_[frame], contact, 0, -beyond)
-    return count, TAKEN, 1.0
+                write_spread(proof.spread[frame], box)
+            write(track.momenta[frame], low.momenta[frame], state, K, -shift)
+            write(track.verticals[frame], low.verticals[frame], state, G, 0)
+            if track.follows:
+                write(track.attitudes[frame], low.attitudes[frame], ball.attitude, 0, 0)
+                write(track.traces[frame], low.traces[frame], ball.contact, 0, -beyond)
+    return steps.last - steps.first, TAKEN, 1.0
 
 
 #: The balls in a block: its rows stay in the first-level cache.
@@ -436,21 +441,21 @@ def corrected(S, P, ok):
 
 
 @out_of_line
-def mend(S, P, ok, step, taken, status, reach):
+def mend(S, P, ok, step, ends):
     """`stage` for the lanes not converged; a ball without a rotation rests from then on."""
     for i in range(LANES):
         if ok[i] == 1:
             continue
         put_in(P, W, i, (0.0, 0.0, 0.0))
         put_in(P, E, i, (0.0, 0.0, 0.0))
-        if i < len(status) and status[i] == TAKEN:
-            s = S[:, i].copy()
-            status[i], reach[i], u = stage(s, Loose(1.0, 0.0), s[RADIUS], s[ENOUGH], s[A:RADIUS].reshape((8, 3)))
-            if status[i] == TAKEN:
+        if i < len(ends.status) and ends.status[i] == TAKEN:
+            s, one = S[:, i].copy(), Loose(1.0, 0.0)
+            ends.status[i], ends.reach[i], u = stage(s, one, s[RADIUS], s[ENOUGH], s[A:RADIUS].reshape((8, 3)))
+            if ends.status[i] == TAKEN:
                 put_in(P, W, i, highs(u))
                 put_in(P, E, i, lows(u))
                 continue
-            taken[i] = step
+            ends.taken[i] = step
         S[RADIUS, i] = -1.0
 
 
@@ -476,37 +481,34 @@ def all_turned(S, P):
         extrapolated_in(S, A + 2, i, w[2] + e[2])
 
 
-def prepare_pairs_block(
-    momentum: Matrix, g: Matrix, tensor: Matrix, contact: Vector, c: Matrix, state: Matrix, shift: Integers,
-    beyond: Integers,
-):  # fmt: skip
+def prepare_pairs_block(start: Start, c: Matrix, state: Matrix, shift: Integers, beyond: Integers):
     """`prepare_pairs` for each ball of a block; spare lanes repeat the last ball."""
-    one, radius, enough, last = np.empty(ROWS), np.empty(1), np.empty(1), len(contact) - 1
+    one, limits, last = np.empty(ROWS), np.empty((2, 1)), len(start.contact) - 1
     for lane in range(state.shape[1]):
         i = min(lane, last)
-        shift[i], beyond[i] = prepare_pairs(momentum[i], g[i], tensor[i], contact[i], c, one, radius, enough)
+        shift[i], beyond[i] = prepare_pairs(
+            start.momentum[i], start.gamma[i], start.tensor[i], start.contact[i], c, one, limits
+        )
         for row in range(RADIUS):
             state[row, lane] = one[row] if row < ROWS else 0.0
-        state[RADIUS, lane], state[ENOUGH, lane] = radius[0], enough[0]
+        state[RADIUS, lane], state[ENOUGH, lane] = limits[0, 0], limits[1, 0]
 
 
-def march_pairs_block(
-    state: Matrix, first: int, count: int, every: int, shift: Integers, momenta: Cube, momenta_: Cube, verticals: Cube,
-    verticals_: Cube, taken: Integers, status: Integers, reach: Doubles,
-):  # fmt: skip
-    """Takes `count` steps of a block from step `first` on, as `march_pairs`: state (ALL_ROWS, LANES).
+def march_pairs_block(state: Matrix, steps: Steps, shift: Integers, frames: Frames, low: Frames, ends: Ends):
+    """`march_pairs` for a block of balls: state (ALL_ROWS, LANES).
 
-    shift, taken, status and reach have one entry for each ball; lanes beyond these are idle copies.
+    shift and the ends have one entry for each ball; lanes beyond these are idle copies.
     """
+    status = ends.status
     S, P, ok = np.empty((ALL_ROWS, LANES)), np.empty((WORK_ROWS, LANES)), np.empty(LANES, dtype=np.int64)
     carry(state, S, LANES)
-    for step in range(first, first + count):
+    for step in range(steps.first, steps.last):
         bad, rounds = approached(S, P, ok, False), 1
         while bad != 0 and rounds < ROUNDS:
             bad, rounds = approached(S, P, ok, True), rounds + 1
         residuals(S, P)
         if corrected(S, P, ok) != 0:
-            mend(S, P, ok, step, taken, status, reach)
+            mend(S, P, ok, step, ends)
         all_turned(S, P)
         if (step + 1) % PERIOD == 0:
             for i in range(LANES):
@@ -514,16 +516,16 @@ def march_pairs_block(
                 restore_pairs(one)
                 for row in range(ROWS):
                     S[row, i] = one[row]
-        if (step + 1) % every == 0:
-            frame = (step + 1) // every
+        if (step + 1) % steps.every == 0:
+            frame = (step + 1) // steps.every
             for i in range(len(status)):
                 if status[i] == TAKEN:
                     one = S[:, i].copy()
-                    write(momenta[i, frame], momenta_[i, frame], one, K, -int(shift[i]))
-                    write(verticals[i, frame], verticals_[i, frame], one, G, 0)
+                    write(frames.momenta[i, frame], low.momenta[i, frame], one, K, -int(shift[i]))
+                    write(frames.verticals[i, frame], low.verticals[i, frame], one, G, 0)
     for i in range(len(status)):
         if status[i] == TAKEN:
-            taken[i] = first + count
+            ends.taken[i] = steps.last
     carry(S, state, LANES)
 
 
@@ -538,9 +540,10 @@ def rotated(a, v):
     return normalised(rotate(*a, *v))
 
 
-def column(k, g, a, x, y, n, state, radius, enough, rho):
-    """n steps of the map from k, γ, the attitude a and (x, y): (status, reach, a, x, y); state: has I, J and D."""
+def column(k, g, a, n, state, radius, enough, rho):
+    """n steps of the map from k, γ and the attitude a: (status, reach, a, x, y); state: has I, J and D."""
     inertia, tensor, contact = three_pairs(state, I), three(state, J), state[D]
+    x, y = Loose(0.0, 0.0), Loose(0.0, 0.0)
     u = angular_velocity(*highs(k), *highs(g), *tensor, contact)
     v, status, reach = u, TAKEN, 1.0  # v: the Gibbs vector of the step before
     for _ in range(n):
@@ -566,16 +569,23 @@ def with_shares(total, weight, q):
     )  # fmt: skip
 
 
-def march_long_pairs(
-    momentum: Vector, g: Vector, tensor: Vector, contact: float, h: float, h_: float, first: int, count: int,
-    every: int, weights: Matrix, rho: float, follows: bool, attitude: Vector, body: Vector, momenta: Matrix,
-    momenta_: Matrix, verticals: Matrix, verticals_: Matrix, attitudes: Matrix, attitudes_: Matrix, traces: Matrix,
-    traces_: Matrix,
-):  # fmt: skip
-    """Takes `count` long steps h, a pair, of a ball from step `first` on; stores every `every`-th state.
+class Still(NamedTuple):
+    """A ball at step 0 of long steps: K, γ and the attitude in pairs, (8); J, D and the radius."""
 
-    momentum, g, attitude: K, γ and the attitude in pairs (8) at step 0.  body: pairs, the present attitude and contact
-    point (12), updated.  Names with _ are the low halves of frames; `follows`: whether the body has frames.
+    momentum: Vector
+    gamma: Vector
+    attitude: Vector
+    tensor: Vector
+    contact: float
+    radius: float
+
+
+def march_long_pairs(
+    ball: Still, h: float, h_: float, weights: Matrix, steps: Steps, body: Vector, track: Track, low: Track
+):
+    """Takes long steps h, a pair, of a ball.
+
+    body: pairs, the present attitude and contact point (12), updated.  low: the low halves.
     weights: pairs, for the columns n = FIRST, ..., and for the change by the last column, (columns, 4).
     Returns (taken, status, reach, doubt); doubt is the accumulated size of these changes.
     """
@@ -583,29 +593,29 @@ def march_long_pairs(
     state, one, limits = np.zeros(ROWS), np.zeros((1, 2)), np.zeros((2, columns))
     one[0, 0] = 1.0
     # K is scaled to about 1, and the exponent of h is kept separately, to avoid overflow and underflow.
-    _, size = frexp(largest(three(momentum, 0)))
+    _, size = frexp(largest(three(ball.momentum, 0)))
     mantissa, exponent = frexp(h)
-    k, part = shifted(three(momentum, 0), -size), np.zeros(3)
+    k, part = shifted(three(ball.momentum, 0), -size), np.zeros(3)
     put(part, 0, shifted(k, min(size + exponent, 1000)))
-    shift, beyond = prepare_pairs(part, g, tensor, contact, one, state, limits[0], limits[1])
+    shift, beyond = prepare_pairs(part, ball.gamma, ball.tensor, ball.contact, one, state, limits)
     half = ldexp(mantissa, min(size + exponent + shift, LONGEST))
     half_ = ldexp(ldexp(h_, -exponent), min(size + exponent + shift, LONGEST))
     for j in range(columns):
         limits[0, j], limits[1, j] = bounds(scaled(half / (FIRST + j), k), highs(three_pairs(state, I)), state[D])
-    a = pair(attitude, 0), pair(attitude, 2), pair(attitude, 4), pair(attitude, 6)
+    a = pair(ball.attitude, 0), pair(ball.attitude, 2), pair(ball.attitude, 4), pair(ball.attitude, 6)
     K_, g_ = rotated(a, (Loose(k[0], 0.0), Loose(k[1], 0.0), Loose(k[2], 0.0))), rotated(a, three_pairs(state, G))
     a, x, y = (pair(body, 0), pair(body, 2), pair(body, 4), pair(body, 6)), pair(body, 8), pair(body, 10)
-    for step in range(first, first + count):
+    for step in range(steps.first, steps.last):
         sums, changes, x_, y_ = (zero, zero, zero, zero), (zero, zero, zero, zero), zero, zero
         k_body, g_body = rotated(conjugate(a), K_), rotated(conjugate(a), g_)
         for j in range(columns):
             n = FIRST + j
             f = Loose(half, half_) / Loose(n * 1.0)
             status, reach, p, s, t = column(
-                normalised(scaled(f, k_body)), g_body, a, zero, zero, n, state, limits[0, j], limits[1, j], rho
+                normalised(scaled(f, k_body)), g_body, a, n, state, limits[0, j], limits[1, j], ball.radius
             )
             if status != TAKEN:
-                return step - first, status, reach, doubt
+                return step - steps.first, status, reach, doubt
             weight, change = Loose(weights[j, 0], weights[j, 1]), Loose(weights[j, 2], weights[j, 3])
             sums, x_, y_ = with_shares(sums, weight, p), with_share(x_, weight, s), with_share(y_, weight, t)
             changes = with_shares(changes, change, p)
@@ -617,13 +627,13 @@ def march_long_pairs(
         put_pair(body, 8, x)
         put_pair(body, 10, y)
         doubt = doubt + 2.0 * sqrt(square_of_four((changes[0].high, *highs(changes[1:4]))))
-        if (step + 1) % every == 0:
-            frame = (step + 1) // every
+        if (step + 1) % steps.every == 0:
+            frame = (step + 1) // steps.every
             put_pairs(state, K, rotated(conjugate(a), K_))
             put_pairs(state, G, rotated(conjugate(a), g_))
-            write(momenta[frame], momenta_[frame], state, K, size)
-            write(verticals[frame], verticals_[frame], state, G, 0)
-            if follows:
-                write(attitudes[frame], attitudes_[frame], body, 0, 0)
-                write(traces[frame], traces_[frame], body, 8, -beyond)
-    return count, TAKEN, 1.0, doubt
+            write(track.momenta[frame], low.momenta[frame], state, K, size)
+            write(track.verticals[frame], low.verticals[frame], state, G, 0)
+            if track.follows:
+                write(track.attitudes[frame], low.attitudes[frame], body, 0, 0)
+                write(track.traces[frame], low.traces[frame], body, 8, -beyond)
+    return steps.last - steps.first, TAKEN, 1.0, doubt

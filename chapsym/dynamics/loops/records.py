@@ -44,6 +44,15 @@ class Track(NamedTuple):
     follows: bool
 
 
+class Start(NamedTuple):
+    """Balls before a step: 𝒦, γ and J, (balls, 3), and D, (balls,)."""
+
+    momentum: Matrix
+    gamma: Matrix
+    tensor: Matrix
+    contact: Vector
+
+
 class Balls(NamedTuple):
     """The balls: J (balls, 3), D and the radius, (balls,)."""
 
