@@ -100,6 +100,8 @@ typedef struct { r2 momentum, gamma, tensor; r1 contact; } Start;
 typedef struct { int64_t first, last, every; } Steps;
 typedef struct { r1 momentum, gamma, attitude, tensor; real contact, radius; } Still;
 typedef struct { r2 momenta, verticals, attitudes, traces; int follows; } Track;
+typedef struct { r2 k; r1 g, J; real D; r1 c, near, enough; r4 past; r2 use; real scale; r2 R; r1 spot; real rho; }
+    Under;
 typedef struct { r2 sums; r3 following; r2 beginning; } Weights;
 typedef struct { real a0, a1; } t_r2;
 typedef struct { t_r2 a0, a1, a2, a3; } t_p4;
@@ -1953,12 +1955,15 @@ INLINE t_r2 loop_n_turn(r2 E, r1 r, r2 O, r2 W, r1 v) {
     return (t_r2){change, size};
 }
 
-INLINE int loop_n_settle(r2 k, r1 g, r1 J, real D, real near, real enough, r2 E, r2 O, r2 W, r2 T, r1 r, r1 h, r1 c) {
-    real far, off; t_r2 change;
+INLINE int loop_n_settle(Under ball, r2 k, int64_t s, r2 E, r2 T) {
+    real far, off; t_r2 change; int64_t n = k.n0; r1 g = ball.g, J = ball.J;
+    real D = ball.D, enough = ball.enough.p[s]; ALIGNED real O_[n * n]; r2 O = {O_, n, n, n}; ALIGNED real W_[n * n];
+    r2 W = {W_, n, n, n}; ALIGNED real r_[T.n0]; r1 r = {r_, T.n0}; ALIGNED real h_[n]; r1 h = {h_, n};
+    ALIGNED real c_[n]; r1 c = {c_, n};
     for (int64_t i_0 = 0; i_0 < 12; i_0++) {
         far = loop_n_polish(E, W, c); loop_n_gap(E, k, g, J, D, c, r); loop_n_slope(E, g, J, D, O, h, c, T);
         loop_n_solve(T, r); change = loop_n_turn(E, r, O, W, c); off = change.a0 + far;
-        if (off * off <= enough * enough * change.a1) { return change.a1 <= near; }
+        if (off * off <= enough * enough * change.a1) { return change.a1 <= ball.near.p[s]; }
     }
     return 0;
 }
@@ -2039,38 +2044,39 @@ INLINE void loop_n_move(r2 E, r2 k, r1 g, r2 W, r1 c) {
     }
 }
 
-INLINE int64_t loop_n_march(r2 k, r1 g, r1 J, real D, r1 c, r1 near, r1 enough, r4 past, r2 use, int64_t first,
-    int64_t count, int64_t every, real scale, r3 momenta, r2 verticals, int with_body, r2 R, r1 spot, real rho, r3
-    attitudes, r2 traces, r2 T) {
-    int64_t s, frame; int64_t n = k.n0, stages = c.n0; ALIGNED real E_[n * n]; r2 E = {E_, n, n, n};
-    ALIGNED real O_[n * n]; r2 O = {O_, n, n, n}; ALIGNED real W_[n * n]; r2 W = {W_, n, n, n}; ALIGNED real r_[T.n0];
-    r1 r = {r_, T.n0}; ALIGNED real h_[n]; r1 h = {h_, n}; ALIGNED real v_[n]; r1 v = {v_, n};
-    ALIGNED real part_[n * n]; r2 part = {part_, n, n, n};
-    for (int64_t stage = first, end_stage = first + count; stage < end_stage; stage++) {
-        s = mod_i(stage, stages);
+INLINE int64_t loop_n_march(Under ball, Steps stages, Track track, r2 T) {
+    int64_t s, frame; r2 t_1 = ball.k; r1 t_2 = ball.g; int64_t t_3 = ball.k.n0, t_4 = ball.c.n0; r2 k = t_1;
+    r1 g = t_2; int64_t n = t_3, count = t_4; ALIGNED real E_[n * n]; r2 E = {E_, n, n, n}; ALIGNED real W_[n * n];
+    r2 W = {W_, n, n, n}; ALIGNED real part_[n * n]; r2 part = {part_, n, n, n}; ALIGNED real v_[n]; r1 v = {v_, n};
+    for (int64_t stage = stages.first, end_stage = stages.last; stage < end_stage; stage++) {
+        s = mod_i(stage, count);
         for (int64_t i = 0, end_i = n; i < end_i; i++) {
-            for (int64_t j = 0, end_j = n; j < end_j; j++) { AT2(part, i, j) = c.p[s] * AT2(k, i, j); }
+            for (int64_t j = 0, end_j = n; j < end_j; j++) { AT2(part, i, j) = ball.c.p[s] * AT2(k, i, j); }
         }
-        loop_n_guess(r4_row(past, s), r2_row(use, s), E);
-        if (!loop_n_settle(part, g, J, D, near.p[s], enough.p[s], E, O, W, T, r, h, v)) { return stage - first; }
-        loop_n_remember(E, r4_row(past, s), r2_row(use, s));
-        if (with_body) { loop_n_roll(E, g, R, spot, rho, v, W); }
+        loop_n_guess(r4_row(ball.past, s), r2_row(ball.use, s), E);
+        if (!loop_n_settle(ball, part, s, E, T)) { return stage; }
+        loop_n_remember(E, r4_row(ball.past, s), r2_row(ball.use, s));
+        if (track.follows) { loop_n_roll(E, g, ball.R, ball.spot, ball.rho, v, W); }
         loop_n_move(E, k, g, W, v);
-        if (mod_i(stage + 1, stages * every) == 0) {
-            frame = div_i(stage + 1, stages * every);
+        if (mod_i(stage + 1, count * stages.every) == 0) {
+            frame = div_i(stage + 1, count * stages.every);
             for (int64_t i = 0, end_i = n; i < end_i; i++) {
-                AT2(verticals, frame, i) = g.p[i];
-                for (int64_t j = 0, end_j = n; j < end_j; j++) { AT3(momenta, frame, i, j) = scale * AT2(k, i, j); }
-            }
-            if (with_body) {
-                for (int64_t i = 0, end_i = n; i < end_i; i++) {
-                    for (int64_t j = 0, end_j = n; j < end_j; j++) { AT3(attitudes, frame, i, j) = AT2(R, i, j); }
+                AT2(track.verticals, frame, i) = g.p[i];
+                for (int64_t j = 0, end_j = n; j < end_j; j++) {
+                    AT2(track.momenta, frame, n * i + j) = ball.scale * AT2(k, i, j);
                 }
-                for (int64_t i = 0, end_i = n - 1; i < end_i; i++) { AT2(traces, frame, i) = spot.p[i]; }
+            }
+            if (track.follows) {
+                for (int64_t i = 0, end_i = n; i < end_i; i++) {
+                    for (int64_t j = 0, end_j = n; j < end_j; j++) {
+                        AT2(track.attitudes, frame, n * i + j) = AT2(ball.R, i, j);
+                    }
+                }
+                for (int64_t i = 0, end_i = n - 1; i < end_i; i++) { AT2(track.traces, frame, i) = ball.spot.p[i]; }
             }
         }
     }
-    return count;
+    return stages.last;
 }
 
 INLINE real kernel_vertical_square(real g1, real g2, real g3, real L1, real L2, real L3) {
@@ -4122,8 +4128,9 @@ WIDEST static void in_block_advance_blocks(const argument *a, argument *got) {
 
 #ifndef SINGLE
 static void in_loop_n_march(const argument *a, argument *got) {
-    int64_t out = loop_n_march(r2_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r4_(7), r2_(8), i_(9), i_(10),
-        i_(11), r_(12), r3_(13), r2_(14), b_(15), r2_(16), r1_(17), r_(18), r3_(19), r2_(20), r2_(21));
+    int64_t out = loop_n_march((Under){r2_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r4_(7), r2_(8), r_(9),
+        r2_(10), r1_(11), r_(12)}, (Steps){i_(13), i_(14), i_(15)}, (Track){r2_(16), r2_(17), r2_(18), r2_(19),
+        b_(20)}, r2_(21));
     got[0].integer = out;
 }
 
@@ -4196,7 +4203,7 @@ const loop_export LOOPS()[] = {
     {"block_march_blocks", "r2* r2* r2* r2* r2* r1* r1 r3 i i i r2 r2 r2 r1 r1 r3* r3* r3* r3* b* b* i1* i1* d1* r2*", "", in_block_march_blocks},
     {"block_advance_blocks", "r2* r2* r2 r1 r2* i1* d1*", "", in_block_advance_blocks},
 #ifndef SINGLE
-    {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
+    {"loop_n_march", "r2* r1* r1* r* r1* r1* r1* r4* r2* r* r2* r1* r* i i i r2* r2* r2* r2* b* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1* r1 r i i i r2* r1*", "b", in_vertical_loop_march},
     {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r2*", "ii", in_double_double_prepare_pairs},
     {"double_double_march_pairs", "r1* r2* r2* r1* r1* r* r2 i i i i i r2* r2* r2* r2* b* r2* r2* r2* r2* b* r2* r1* r2*", "iir", in_double_double_march_pairs},
@@ -4212,6 +4219,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "474bcebcb09d63c9de813ed287c56e6b6eaa177980111045379e793544c56d00";
+const char loops_text[] = "85002382efd64120d21a81b6f4e4fbd6c3e725ff7692121c46d8ab17506dca91";
 #endif
 #endif

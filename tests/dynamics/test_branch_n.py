@@ -200,7 +200,7 @@ def test_another_rotation_with_the_momentum_is_not_taken():
     K = so_n.momentum(small, gamma, J, D[0])
     near, enough = (x[0] for x in near_n.limits(K[None], J[None], D, ONE))
     for E, right in ((small, True), (large, False)):
-        work = [np.empty(shape) for shape in ((n, n), (n, n), (6, 6), 6, n, n)]
-        found = E.copy()
-        assert loop_n.settle(K, gamma, J, 0.0, near[0], enough[0], found, *work) == right
+        found, none = E.copy(), np.empty(0)
+        ball = loop_n.Under(K, gamma, J, 0.0, ONE, near, enough, none, none, 1.0, none, none, 1.0)
+        assert loop_n.settle(ball, K, 0, found, np.empty((6, 6))) == right
         assert np.abs(found - E).max() < 1e-15

@@ -5,14 +5,40 @@
 `march` is only for balls below the bound of `n.near_n`, where a rotation with the momentum and a small E is unique.
 """
 
+from typing import NamedTuple
+
 from numpy import empty
 
-from .text import Cube, Matrix, Tensor, Vector
+from .records import Steps, Track
+from .text import Matrix, Tensor, Vector
 
 #: The most Newton corrections in a step.
 MOST_ROUNDS = 12
 #: The number of last rotations for the guess of the next one.
 ORDER = 8
+
+
+class Under(NamedTuple):
+    """A ball under way.  Moments are divided by `scale`, so that the largest is about 1; 𝒦 = scale·k.
+
+    Of the stages cᵢ of a step, (s,): the bounds near and enough for `settle`, and the last rotations, past
+    (s, ORDER, n, n) and use (s, ORDER).  The attitude R and the contact point `spot`, (n - 1,), are used only if
+    followed.
+    """
+
+    k: Matrix
+    g: Vector
+    J: Vector
+    D: float
+    c: Vector
+    near: Vector
+    enough: Vector
+    past: Tensor
+    use: Matrix
+    scale: float
+    R: Matrix
+    spot: Vector
+    rho: float
 
 
 def guess(past, use, E):
@@ -234,11 +260,13 @@ def move(E, k, g, W, c):
             k[j, i] = -z
 
 
-def settle(k, g, J, D, near, enough, E, O, W, T, r, h, c):
-    """Newton's iteration from E, in place; whether it converged to the rotation with the momentum k.
+def settle(ball, k, s, E, T):
+    """Newton's iteration from E, in place; whether it converged to the rotation with the momentum k of the stage s.
 
     near: the bound for Σ Eᵢⱼ².  enough · |E|: the bound for the squares of the last corrections.
     """
+    n, g, J, D, enough = k.shape[0], ball.g, ball.J, ball.D, ball.enough[s]
+    O, W, r, h, c = empty((n, n)), empty((n, n)), empty(T.shape[0]), empty(n), empty(n)
     for _ in range(MOST_ROUNDS):
         far = polish(E, W, c)
         gap(E, k, g, J, D, c, r)
@@ -247,48 +275,40 @@ def settle(k, g, J, D, near, enough, E, O, W, T, r, h, c):
         change, size = turn(E, r, O, W, c)
         off = change + far
         if off * off <= enough * enough * size:
-            return size <= near
+            return size <= ball.near[s]
     return False
 
 
-def march(
-    k: Matrix, g: Vector, J: Vector, D: float, c: Vector, near: Vector, enough: Vector, past: Tensor, use: Matrix,
-    first: int, count: int, every: int, scale: float, momenta: Cube, verticals: Matrix, with_body: bool, R: Matrix,
-    spot: Vector, rho: float, attitudes: Cube, traces: Matrix, T: Matrix,
-):  # fmt: skip
-    """Takes `count` stages from the stage `first` on, until one does not converge; returns how many were taken.
+def march(ball: Under, stages: Steps, track: Track, T: Matrix):
+    """Takes stages, until one does not converge; returns the number of the first that was not taken.
 
-    A step consists of stages with the coefficients c (s,): each turns k by the rotation of cᵢk.
-    k (n, n), g (n), R (n, n) and spot (n - 1) hold the present state and are updated.  Each stage has its own bounds
-    near (s,) and enough (s,), and its last rotations in past (s, ORDER, n, n) and use (s, ORDER).
-    𝒦 = scale·k.  T: workspace, a square matrix of size n(n - 1)/2.  The state after every `every`-th step is written
-    into the frame arrays.  The attitude and the trace are used only if `with_body`.
+    A step consists of the stages cᵢ: each turns k by the rotation of cᵢk.  The state after every `every`-th step is
+    written, a matrix as one row.  T: workspace, a square matrix of size n(n - 1)/2.
     """
-    n, stages = k.shape[0], c.shape[0]
-    E, O, W = empty((n, n)), empty((n, n)), empty((n, n))
-    r, h, v, part = empty(T.shape[0]), empty(n), empty(n), empty((n, n))
-    for stage in range(first, first + count):
-        s = stage % stages
+    k, g, n, count = ball.k, ball.g, ball.k.shape[0], ball.c.shape[0]
+    E, W, part, v = empty((n, n)), empty((n, n)), empty((n, n)), empty(n)
+    for stage in range(stages.first, stages.last):
+        s = stage % count
         for i in range(n):
             for j in range(n):
-                part[i, j] = c[s] * k[i, j]
-        guess(past[s], use[s], E)
-        if not settle(part, g, J, D, near[s], enough[s], E, O, W, T, r, h, v):
-            return stage - first
-        remember(E, past[s], use[s])
-        if with_body:
-            roll(E, g, R, spot, rho, v, W)
+                part[i, j] = ball.c[s] * k[i, j]
+        guess(ball.past[s], ball.use[s], E)
+        if not settle(ball, part, s, E, T):
+            return stage
+        remember(E, ball.past[s], ball.use[s])
+        if track.follows:
+            roll(E, g, ball.R, ball.spot, ball.rho, v, W)
         move(E, k, g, W, v)
-        if (stage + 1) % (stages * every) == 0:
-            frame = (stage + 1) // (stages * every)
+        if (stage + 1) % (count * stages.every) == 0:
+            frame = (stage + 1) // (count * stages.every)
             for i in range(n):
-                verticals[frame, i] = g[i]
+                track.verticals[frame, i] = g[i]
                 for j in range(n):
-                    momenta[frame, i, j] = scale * k[i, j]
-            if with_body:
+                    track.momenta[frame, n * i + j] = ball.scale * k[i, j]
+            if track.follows:
                 for i in range(n):
                     for j in range(n):
-                        attitudes[frame, i, j] = R[i, j]
+                        track.attitudes[frame, n * i + j] = ball.R[i, j]
                 for i in range(n - 1):
-                    traces[frame, i] = spot[i]
-    return count
+                    track.traces[frame, i] = ball.spot[i]
+    return stages.last

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from copy import deepcopy
-from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
@@ -25,6 +24,8 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count, cores, share
 from ..loops import loop_n
+from ..loops.loop_n import Under
+from ..loops.records import Steps, Track
 from ..map import MOST_STEPS, flag, rolling_radius, whole_number
 from ..results import Step, Trajectory, finished, of_balls
 from ..stepper import UnderWay
@@ -289,7 +290,7 @@ class StepperN(UnderWay):
         bounds = limits(state["momentum"], state["mass_tensor"], state["D"], self._stages)
         self._below, self._taken = bool((bounds[0] > 0).all()), 0
         #: The moving state: above the bound, and below it.
-        self._state, self._one = state, begun(state, bounds, self._stages).ball(0)
+        self._state, (self._one,) = state, begun(state, bounds, self._stages)
         self._ends = {name: np.repeat(state[name], 2, axis=0) for name in MOVING if name in state}
 
     def _frames(self, count: int) -> dict[str, Floats]:
@@ -297,7 +298,7 @@ class StepperN(UnderWay):
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         in_parts = self.order > 2 or not self._below
-        before = self._state, self._one.copy() if in_parts else self._one
+        before = self._state, deepcopy(self._one) if in_parts else self._one
         taken, status, reach = self._march(steps, every, frames)
         if status != Status.TAKEN and in_parts:  # some stages of the last step were taken
             self._state, self._one = before
@@ -319,47 +320,10 @@ class StepperN(UnderWay):
     def _show(self) -> None:
         """Copies the state of the loop to the present state."""
         if self._below:
-            self._one.keep(self._ends, 1)
+            keep(self._one, self._ends, 1)
         else:
             for name, array in self._ends.items():
                 array[1] = self._state[name][0]
-
-
-@dataclass(frozen=True, eq=False)
-class Under:
-    """Balls in progress: their states and constants, each array with the balls along its first axis.
-
-    Moments are divided by `scale`, so that the largest is about 1; 𝒦 = scale·k.
-    stages, near, enough, past, use: (b, s, ...), of each stage of a step: cᵢ, `near_n.limits` and `loop_n.remember`.
-    """
-
-    k: Floats
-    g: Floats
-    J: Floats
-    D: Floats
-    stages: Floats
-    near: Floats
-    enough: Floats
-    past: Floats
-    use: Floats
-    scale: Floats
-    R: Floats
-    spot: Floats
-    rho: Floats
-
-    def ball(self, i: int) -> Self:
-        """One of the balls, as a view."""
-        return type(self)(*(x[i] for x in vars(self).values()))
-
-    def copy(self) -> Self:
-        """A copy in memory of its own."""
-        return type(self)(*(x.copy() for x in vars(self).values()))
-
-    def keep(self, frames: dict[str, Floats], frame: int) -> None:
-        """Writes the state of one ball into its frames."""
-        now = {"momentum": self.scale * self.k, "gamma": self.g, "attitude": self.R, "contact": self.spot}
-        for name, array in frames.items():
-            array[frame] = now[name]
 
 
 def start(
@@ -405,21 +369,21 @@ def run(
     below = (near > 0).all(axis=-1)
     for at in blocks(np.flatnonzero(below), n):
         under = begun(some_balls(state, at), (near[at], enough[at]), stages)
-        march(under, frames, at, steps, every, outcome, threads, count)
+        march(under, frames, at, Steps(0, steps, every), outcome, threads, count)
     for at in blocks(np.flatnonzero(~below), n):
         continued(some_balls(state, at), frames, stages, steps, every, outcome, at, count)
     return outcome
 
 
 def march(
-    under: Under, frames: dict[str, Floats], at: np.ndarray, steps: int, every: int,
+    under: list[Under], frames: dict[str, Floats], at: np.ndarray, steps: Steps,
     outcome: tuple[np.ndarray, np.ndarray, Floats], threads: int, count: Count,
 ) -> None:  # fmt: skip
     """Takes steps of balls below the bound, and writes the rows `at` of the frames and of (taken, status, reach)."""
 
     def task(i: int) -> None:
         own = {name: array[at[i]] for name, array in frames.items()}
-        for kept, found in zip(outcome, advance(under.ball(i), own, steps, every, count), strict=True):
+        for kept, found in zip(outcome, advance(under[i], own, steps.last, steps.every, count), strict=True):
             kept[at[i]] = found
 
     share(task, range(len(at)), min(threads or cores(), len(at)), count)
@@ -478,56 +442,59 @@ def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
 
 
 @np.errstate(under="ignore")
-def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Floats) -> Under:
+def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Floats) -> list[Under]:
     """Balls at their start, from the state for `run`, in memory of their own."""
     K, g, J, D = (state[x] for x in ("momentum", "gamma", "mass_tensor", "D"))
     b, n, s = *g.shape, len(stages)
     exponent = np.frexp(largest_moment(J, D))[1]
     past, use = np.zeros((b, s, loop_n.ORDER, n, n)), np.zeros((b, s, loop_n.ORDER))
-    return Under(
+    arrays = (
         np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), g.copy(), np.ldexp(J, -exponent[:, np.newaxis]),
         np.ldexp(D, -exponent), np.tile(stages, (b, 1)), *limits, past, use, np.ldexp(1.0, exponent),
         state.get("attitude", np.zeros((b, n, n))).copy(), state.get("contact", np.zeros((b, n - 1))).copy(),
         state.get("radius", np.zeros(b)),
     )  # fmt: skip
+    return [Under(*ball) for ball in zip(*arrays, strict=True)]
+
+
+def keep(one: Under, frames: dict[str, Floats], frame: int) -> None:
+    """Writes the state of a ball into its frames."""
+    now = {"momentum": one.scale * one.k, "gamma": one.g, "attitude": one.R, "contact": one.spot}
+    for name, array in frames.items():
+        array[frame] = now[name]
 
 
 def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count: Count) -> tuple[int, int, float]:
     """Takes steps of one ball into its own frames; returns (taken, status, reach)."""
-    momenta, verticals, with_body = frames["momentum"], frames["gamma"], "attitude" in frames
-    attitudes = frames["attitude"] if with_body else momenta[:0]
+    momenta, follows = frames["momentum"], "attitude" in frames
+    attitudes = frames["attitude"] if follows else momenta[:0]
     traces = frames["contact"] if "contact" in frames else np.empty((len(attitudes), len(one.spot)))
-    s, done, take = len(one.stages), 0, native.loop(loop_n.march)
+    momenta, attitudes = (x.reshape(len(x), one.k.size) for x in (momenta, attitudes))
+    track = Track(momenta, frames["gamma"], attitudes, traces, follows)
+    s, done, take = len(one.c), 0, native.loop(loop_n.march)
     room = np.empty((len(one.g) * (len(one.g) - 1) // 2,) * 2)
     while done < steps * s and not count.stopped:
-        now, before = min(CHUNK, steps * s - done), done
-        went = take(
-            one.k, one.g, one.J, float(one.D), one.stages, one.near, one.enough, one.past, one.use,
-            done, now, every, float(one.scale), momenta, verticals,
-            with_body, one.R, one.spot, float(one.rho), attitudes, traces, room,
-        )  # fmt: skip
-        done += went
-        if went < now:
-            status, reach = _safely(one, done % s, with_body)
+        last, before = min(done + CHUNK, steps * s), done
+        done = take(one, Steps(done, last, every), track, room)
+        if done < last:
+            status, reach = _safely(one, done % s, follows)
             if status != Status.TAKEN:
                 return done // s, status, reach
             done += 1
             if done % (s * every) == 0:
-                one.keep(frames, done // (s * every))
+                keep(one, frames, done // (s * every))
         count.add(done // s - before // s)
     return done // s, Status.TAKEN, 1.0
 
 
 def _safely(one: Under, s: int, with_body: bool) -> tuple[int, float]:
     """A stage at which Newton's iteration failed, by the continuation from the identity; returns (status, reach)."""
-    E, status, reach = small_rotation(
-        *(np.asarray(x)[np.newaxis] for x in (one.stages[s] * one.k, one.g, one.J, one.D))
-    )
+    E, status, reach = small_rotation(*(np.asarray(x)[np.newaxis] for x in (one.c[s] * one.k, one.g, one.J, one.D)))
     if status[0] == Status.TAKEN:
         n = len(one.g)
         W, c = np.empty((n, n)), np.empty(n)
         loop_n.remember(E[0], one.past[s], one.use[s])
         if with_body:
-            loop_n.roll(E[0], one.g, one.R, one.spot, float(one.rho), c, W)
+            loop_n.roll(E[0], one.g, one.R, one.spot, one.rho, c, W)
         loop_n.move(E[0], one.k, one.g, W, c)
     return int(status[0]), float(reach[0])
