@@ -83,9 +83,10 @@ INLINE void r2_fill(r2 a, real x) { for (int64_t i = 0; i < a.n0; i++) r1_fill(r
 typedef struct { real a0; int64_t a1; } t_ri;
 INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }
 
-typedef struct { r1 first, allowed, most, start; } Asked;
+typedef struct { r1 first, allowed, most, start; real interval; int patient; } Asked;
 typedef struct { r2 tensor; r1 contact, radius; } Balls;
 typedef struct { r2 state, radius, enough, past, body; r1 scale; } Block;
+typedef struct { r2 S, E, bodies, states, lanes; r3 ends, curves; r2 V; r1 now; } Crew;
 typedef struct { i1 taken, status; d1 reach; } Ends;
 typedef struct { r3 momenta, verticals, attitudes, traces; int follows, traced; } Frames;
 typedef struct { r1 state; r2 limits, past; r1 attitude, contact; real radius; } Moving;
@@ -399,14 +400,14 @@ INLINE real path_lowest(real trace, real minors, real det) {
     x = trace > R(0.0) ? x : R(-1.0); x = minors > R(0.0) ? x : R(-1.0); return det > R(0.0) ? x : R(-1.0);
 }
 
-INLINE real path_small_between(real a, real b, real most, real size, real c, real along, real across, real half, real
-    slope, real sag, real first, real last) {
-    real start = size * (R(1.0) + a) - c * (R(1.0) + a * a * size) - along;
-    real end = size * (R(1.0) + b) - c * (R(1.0) + b * b * size) - along;
-    real r = max_r(R(fabs(start)), R(fabs(end))) + R(0.25) * (b - a) * (b - a) * c * size;
-    real m = min_r((R(1.0) - a) * first + a * last, (R(1.0) - b) * first + b * last) - most * sag;
-    real left = R(4.0) * slope * most;
-    real small = left * left * (half * half * (r * r) + across) < R(0.98) * (m * m) * (m * m) ? R(1.0) : R(0.0);
+INLINE real path_small_between(real a, real b, real most, t_r9 path) {
+    t_r9 size = path; real start = size.a0 * (R(1.0) + a) - size.a1 * (R(1.0) + a * a * size.a0) - size.a2;
+    real end = size.a0 * (R(1.0) + b) - size.a1 * (R(1.0) + b * b * size.a0) - size.a2;
+    real r = max_r(R(fabs(start)), R(fabs(end))) + R(0.25) * (b - a) * (b - a) * size.a1 * size.a0;
+    real m = min_r((R(1.0) - a) * size.a7 + a * size.a8, (R(1.0) - b) * size.a7 + b * size.a8) - most * size.a6;
+    real left = R(4.0) * size.a5 * most;
+    real small = left * left * (size.a4 * size.a4 * (r * r) + size.a3) < R(0.98) * (m * m) * (m * m) ? R(1.0) :
+        R(0.0);
     return m > R(0.0) ? small : R(0.0);
 }
 
@@ -423,15 +424,11 @@ INLINE t_r2 path_joined(t_r3 u, real size, t_r3 k, real half, t_r3 g, t_r3 I, re
     real c = max_r(R(0.0), min_r(R(1.0), (size * R(1.75) - along) / (R(1.0) + R(0.5625) * size)));
     real sag = half * R(sqrt(size)) - (k.a0 * u1.a0 + (k.a1 * u1.a1 + k.a2 * u1.a2)), slope = spread + R(2.0) * half;
     real proved = first > R(0.0) ? R(1.0) : R(0.0); proved = last > R(0.0) ? proved : R(0.0);
-    proved = proved * path_small_between(R(0.0), R(0.4), R(0.24), size, c, along, across, half, slope, sag, first,
-        last);
-    proved = proved * path_small_between(R(0.4), R(0.65), R(0.25), size, c, along, across, half, slope, sag, first,
-        last);
-    proved = proved * path_small_between(R(0.65), R(0.85), R(0.2275), size, c, along, across, half, slope, sag, first,
-        last);
-    proved = proved * path_small_between(R(0.85), R(1.0), R(0.1275), size, c, along, across, half, slope, sag, first,
-        last);
-    return (t_r2){proved, last};
+    t_r9 path = (t_r9){size, c, along, across, half, slope, sag, first, last};
+    real a = R(0.0), b = R(0.4), most = R(0.24); proved = proved * path_small_between(a, b, most, path); a = R(0.4);
+    b = R(0.65); most = R(0.25); proved = proved * path_small_between(a, b, most, path); a = R(0.65); b = R(0.85);
+    most = R(0.2275); proved = proved * path_small_between(a, b, most, path); a = R(0.85); b = R(1.0);
+    most = R(0.1275); proved = proved * path_small_between(a, b, most, path); return (t_r2){proved, last};
 }
 
 INLINE int path_proved(t_r3 u, real left, t_r3 k, t_r3 g, t_r3 I, real D) {
@@ -710,6 +707,10 @@ OUT_OF_LINE t_ir_r4__r3_ loop_safe_rotation(t_r3 u, r1 state) {
         status.a2, status.a4 / status.a2, status.a5 / status.a2}};
 }
 
+INLINE t_r4 vectors_four(r1 array, int64_t at) {
+    return (t_r4){array.p[at], array.p[at + 1], array.p[at + 2], array.p[at + 3]};
+}
+
 INLINE real vectors_square_of_four(t_r4 q) { return q.a0 * q.a0 + q.a1 * q.a1 + (q.a2 * q.a2 + q.a3 * q.a3); }
 INLINE t_r4 vectors_unit(t_r4 q) {
     real size = R(sqrt(vectors_square_of_four(q))); return (t_r4){q.a0 / size, q.a1 / size, q.a2 / size, q.a3 / size};
@@ -737,12 +738,14 @@ INLINE t__r4_r2 loop_followed(t_r4 p, t_r3 g, t_r4 a, real x, real y, real radiu
     return (t__r4_r2){vectors_scaled_four(scale, b), x + radius * d1.a0, y + radius * d1.a1};
 }
 
+INLINE void vectors_put_four(r1 array, int64_t at, t_r4 q) {
+    array.p[at] = q.a0; array.p[at + 1] = q.a1; array.p[at + 2] = q.a2; array.p[at + 3] = q.a3;
+}
+
 #ifndef SINGLE
 INLINE void loop_follow_body(t_r4 p, t_r3 g, r1 attitude, r1 contact, real radius) {
-    t_r4 a = (t_r4){attitude.p[0], attitude.p[1], attitude.p[2], attitude.p[3]};
-    t__r4_r2 t_1 = loop_followed(p, g, a, contact.p[0], contact.p[1], radius); a = t_1.a0; contact.p[0] = t_1.a1;
-    contact.p[1] = t_1.a2; t_r4 t_2 = a; attitude.p[0] = t_2.a0; attitude.p[1] = t_2.a1; attitude.p[2] = t_2.a2;
-    attitude.p[3] = t_2.a3;
+    t__r4_r2 t_1 = loop_followed(p, g, vectors_four(attitude, 0), contact.p[0], contact.p[1], radius);
+    t_r4 a = t_1.a0; contact.p[0] = t_1.a1; contact.p[1] = t_1.a2; vectors_put_four(attitude, 0, a);
 }
 
 #endif
@@ -859,16 +862,12 @@ INLINE t_i2r loop_march(Moving ball, Stages stages, Steps steps, int64_t begun, 
             frame = div_i(step, steps.every); vectors_put(r2_row(track.momenta, frame), 0, vectors_scaled(scale, k));
             vectors_put(r2_row(track.verticals, frame), 0, g);
             if (track.follows) {
-                for (int64_t i = 0; i < 4; i++) { AT2(track.attitudes, frame, i) = ball.attitude.p[i]; }
+                vectors_put_four(r2_row(track.attitudes, frame), 0, vectors_four(ball.attitude, 0));
                 AT2(track.traces, frame, 0) = ball.contact.p[0]; AT2(track.traces, frame, 1) = ball.contact.p[1];
             }
         }
     }
     return (t_i2r){step - steps.first, status, reach};
-}
-
-INLINE void vectors_put_four(r1 array, int64_t at, t_r4 q) {
-    array.p[at] = q.a0; array.p[at + 1] = q.a1; array.p[at + 2] = q.a2; array.p[at + 3] = q.a3;
 }
 
 INLINE t_ir loop_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 state, r1 q) {
@@ -1145,7 +1144,7 @@ INLINE void block_stop(r2 S, r2 T, r2 radius, i1 status, w1 ok) {
             for (int64_t stage = 0, end_stage = radius.n0; stage < end_stage; stage++) {
                 AT2(radius, stage, i) = R(-3.0);
             }
-            for (int64_t row = 0; row < 3; row++) { AT2(S, row, i) = AT2(T, row, i); }
+            vectors_put_in(S, 0, i, vectors_three_in(T, 0, i));
         }
     }
 }
@@ -1187,12 +1186,11 @@ INLINE void block_keep(Block block, int64_t frame, Frames frames, i1 status) {
     r2 S = block.state, B = block.body;
     for (int64_t i = 0, end_i = status.n0; i < end_i; i++) {
         if (status.p[i] == 0) {
-            for (int64_t c = 0; c < 3; c++) {
-                AT3(frames.momenta, i, frame, c) = block.scale.p[i] * AT2(S, 0 + c, i);
-                AT3(frames.verticals, i, frame, c) = AT2(S, 3 + c, i);
-            }
+            vectors_put(r2_row(r3_row(frames.momenta, i), frame), 0, vectors_scaled(block.scale.p[i],
+                vectors_three_in(S, 0, i)));
+            vectors_put(r2_row(r3_row(frames.verticals, i), frame), 0, vectors_three_in(S, 3, i));
             if (frames.follows) {
-                for (int64_t c = 0; c < 4; c++) { AT3(frames.attitudes, i, frame, c) = AT2(B, c, i); }
+                vectors_put_four(r2_row(r3_row(frames.attitudes, i), frame), 0, vectors_four_in(B, 0, i));
                 AT3(frames.traces, i, frame, 0) = AT2(B, 4, i); AT3(frames.traces, i, frame, 1) = AT2(B, 5, i);
             }
         }
@@ -1254,7 +1252,7 @@ INLINE void block_march_blocks(Block kept, Stages stages, Steps steps, Start sta
             if (frames.follows) {
                 for (int64_t lane = 0, end_lane = ok.n0; lane < end_lane; lane++) {
                     i = min_i(lane, high - low - 1);
-                    for (int64_t row = 0; row < 4; row++) { AT2(B, row, lane) = AT3(some.attitudes, i, 0, row); }
+                    vectors_put_four_in(B, 0, lane, vectors_four(r2_row(r3_row(some.attitudes, i), 0), 0));
                     AT2(B, 4, lane) = R(0.0); AT2(B, 5, lane) = R(0.0); AT2(B, 6, lane) = rho.p[low + i];
                 }
             }
@@ -1265,10 +1263,8 @@ INLINE void block_march_blocks(Block kept, Stages stages, Steps steps, Start sta
         block_march_block(block, stages, steps, some, outcome, ok);
         for (int64_t i = 0, end_i = high - low; i < end_i; i++) {
             if (outcome.status.p[i] != 0) {
-                for (int64_t row = 0; row < 3; row++) {
-                    AT2(ended, low + i, row) = block.scale.p[i] * AT2(S, 0 + row, i);
-                    AT2(ended, low + i, 3 + row) = AT2(S, 3 + row, i);
-                }
+                vectors_put(r2_row(ended, low + i), 0, vectors_scaled(block.scale.p[i], vectors_three_in(S, 0, i)));
+                vectors_put(r2_row(ended, low + i), 3, vectors_three_in(S, 3, i));
             }
         }
     }
@@ -1314,10 +1310,6 @@ INLINE void block_advance_blocks(r2 momenta, r2 verticals, r2 tensors, r1 contac
 }
 
 #ifndef SINGLE
-INLINE t_r4 vectors_four(r1 array, int64_t at) {
-    return (t_r4){array.p[at], array.p[at + 1], array.p[at + 2], array.p[at + 3]};
-}
-
 INLINE void lanes_placed(r1 body, int64_t i, Frames frames) {
     r1_fill(body, R(0.0)); vectors_put(body, 0, vectors_three(r2_row(r3_row(frames.momenta, i), 0), 0));
     vectors_put(body, 3, vectors_three(r2_row(r3_row(frames.verticals, i), 0), 0)); body.p[6] = R(1.0);
@@ -1477,18 +1469,16 @@ INLINE void lanes_finish(r2 S, int64_t i) {
 INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
     t_r3 omega, rate, curve, first, second, later, third, fourth, x, y;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) { lanes_start(S, lane * B + b, 65); }
-    real w0 = AT2(weights, lane, 0), w1 = AT2(weights, lane, 1), w2 = AT2(weights, lane, 2);
-    real w3 = AT2(weights, lane, 3), w4 = AT2(weights, lane, 4), w5 = AT2(weights, lane, 5);
-    real w6 = AT2(weights, lane, 6), w7 = AT2(weights, lane, 7);
+    t_r4 w0 = vectors_four(r2_row(weights, lane), 0), w4 = vectors_four(r2_row(weights, lane), 4);
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
         omega = vectors_three_in(S, 37, b); rate = vectors_three_in(S, 40, b); curve = vectors_three_in(S, 43, b);
         first = vectors_three_in(S, 84, b); second = vectors_three_in(S, 84, B + b);
         later = vectors_three_in(S, 136, b); third = vectors_three_in(S, 84, 2 * B + b);
         fourth = vectors_three_in(S, 84, 3 * B + b);
-        x = vectors_plus(vectors_plus(vectors_scaled(w0, omega), vectors_scaled(w1, rate)),
-            vectors_plus(vectors_scaled(w2, curve), vectors_scaled(w3, first)));
-        y = vectors_plus(vectors_plus(vectors_scaled(w4, second), vectors_scaled(w5, third)),
-            vectors_plus(vectors_scaled(w6, fourth), vectors_scaled(w7, later)));
+        x = vectors_plus(vectors_plus(vectors_scaled(w0.a0, omega), vectors_scaled(w0.a1, rate)),
+            vectors_plus(vectors_scaled(w0.a2, curve), vectors_scaled(w0.a3, first)));
+        y = vectors_plus(vectors_plus(vectors_scaled(w4.a0, second), vectors_scaled(w4.a1, third)),
+            vectors_plus(vectors_scaled(w4.a2, fourth), vectors_scaled(w4.a3, later)));
         vectors_put_in(S, 6, lane * B + b, vectors_scaled(AT2(S, 83, lane * B + b), vectors_plus(x, y)));
     }
 }
@@ -1773,11 +1763,7 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Ends ends, 
         exponents.p[b] = lanes_enter(S, B, b, i, balls, h, weights, body, r2_row(states, b));
     }
     if (steps.first > 0) {
-        for (int64_t row = 0; row < 140; row++) {
-            for (int64_t lane = 0, end_lane = 4 * B; lane < end_lane; lane++) {
-                AT2(S, row, lane) = AT2(kept, row, lane);
-            }
-        }
+        block_carry(kept, S, 4 * B);
         for (int64_t b = 0, end_b = B; b < end_b; b++) {
             for (int64_t row = 0; row < 27; row++) { AT2(states, b, row) = AT2(kept, 140 + row, b); }
         }
@@ -1806,11 +1792,7 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, Ends ends, 
             }
         }
     }
-    for (int64_t row = 0; row < 140; row++) {
-        for (int64_t lane = 0, end_lane = 4 * B; lane < end_lane; lane++) {
-            AT2(kept, row, lane) = AT2(S, row, lane);
-        }
-    }
+    block_carry(S, r2_part(kept, 0, 140), 4 * B);
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
         for (int64_t row = 0; row < 27; row++) { AT2(kept, 140 + row, b) = AT2(states, b, row); }
     }
@@ -3422,16 +3404,15 @@ INLINE void carried_begun(r2 E, int64_t B, int64_t b, t_r3 J, real start) {
     AT2(E, 64, b) = start * start; AT2(E, 67, b) = start * start; AT2(E, 69, b) = start * start;
 }
 
-INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t i, Frames frames, Balls balls, real
-    interval, Weights weights, Asked asked, r1 body, r1 state, r1 lane, r2 reported) {
-    lanes_placed(body, i, frames); r1_fill(lane, R(0.0)); lane.p[4] = i; lane.p[5] = R(1.0);
-    lane.p[18] = asked.allowed.p[i]; lane.p[13] = asked.first.p[i]; lane.p[10] = R(1e+300); lane.p[20] = R(1e+300);
-    following_aimed(lane, frames.momenta.n1, interval);
-    int64_t exponent = lanes_enter(S, B, b, i, balls, lane.p[1], weights, body, state);
+INLINE int64_t following_taken_in(Crew crew, int64_t B, int64_t b, int64_t i, Frames frames, Balls balls, Weights
+    weights, Asked asked) {
+    r2 S = crew.S; r1 body = r2_row(crew.bodies, b), lane = r2_row(crew.lanes, b); lanes_placed(body, i, frames);
+    r1_fill(lane, R(0.0)); lane.p[4] = i; lane.p[5] = R(1.0); lane.p[18] = asked.allowed.p[i];
+    lane.p[13] = asked.first.p[i]; lane.p[10] = R(1e+300); lane.p[20] = R(1e+300);
+    following_aimed(lane, frames.momenta.n1, asked.interval);
+    int64_t exponent = lanes_enter(S, B, b, i, balls, lane.p[1], weights, body, r2_row(crew.states, b));
     lane.p[2] = R(2.0) * AT2(S, 129, b) / lane.p[1];
-    carried_begun(E, B, b, vectors_three_in(S, 131, b), asked.start.p[i]);
-    for (int64_t c = 0; c < 6; c++) { AT2(reported, i, c) = c == 5 ? R(1.0) : R(0.0); }
-    return exponent;
+    carried_begun(crew.E, B, b, vectors_three_in(S, 131, b), asked.start.p[i]); return exponent;
 }
 
 INLINE t_r3 carried_by(t_r3 a, t_r3 b) { return (t_r3){a.a0 * b.a0, a.a1 * b.a1, a.a2 * b.a2}; }
@@ -3532,15 +3513,15 @@ INLINE real following_lengthened(real ratio) {
     return R(1.0) / (root * R(sqrt(root)));
 }
 
-INLINE void following_judged(r2 S, r2 E, int64_t b, int lost, real start, r2 sums, r1 state, r1 lane) {
-    int always; int64_t stopped; real reached;
+INLINE void following_judged(Crew crew, int64_t b, int lost, real start, r2 sums) {
+    int always; int64_t stopped; real reached; r2 S = crew.S, E = crew.E; r1 lane = r2_row(crew.lanes, b);
     real step = lane.p[1], tries = lane.p[6], size = lane.p[2] * R(sqrt(vectors_square(vectors_three_in(S, 37, b))));
     lane.p[11] = size; lane.p[12] = R(3.0); lane.p[14] = R(0.0); lane.p[15] = R(0.0);
     if (lost && AT2(S, 58, b) != R(0.0)) {
         always = AT2(S, 62, b) < R(0.0); stopped = 0;
         if (always || tries >= 40) {
-            t_ir t_1 = lanes_safely(S, b, sums, state); stopped = t_1.a0; reached = t_1.a1; lane.p[16] = stopped;
-            lane.p[17] = reached; lane.p[12] = stopped == 0 ? R(3.0) : R(2.0);
+            t_ir t_1 = lanes_safely(S, b, sums, r2_row(crew.states, b)); stopped = t_1.a0; reached = t_1.a1;
+            lane.p[16] = stopped; lane.p[17] = reached; lane.p[12] = stopped == 0 ? R(3.0) : R(2.0);
         }
         if (tries < 40 && (stopped != 0 || !always)) { lane.p[12] = R(1.0); lane.p[10] = R(0.9) * step; }
     }
@@ -3661,19 +3642,19 @@ INLINE t_r2 following_joined(r2 first, r2 end, real radius, int traced, r2 curve
     return (t_r2){turned, way};
 }
 
-INLINE t_r2 following_through(r2 S, int64_t b, r1 body, r1 now, int traced, r1 lane, r2 V, r2 first, r2 last, r2
-    curve) {
-    real whole = lane.p[1] * lane.p[2]; t_r3 J = vectors_three_in(S, 131, b);
-    real contact = AT2(S, 134, b), radius = AT2(S, 130, b);
+INLINE t_r2 following_through(Crew crew, int64_t b, int traced) {
+    r2 S = crew.S; r1 lane = r2_row(crew.lanes, b);
+    r2 first = r3_row(crew.ends, 2 * b), last = r3_row(crew.ends, 2 * b + 1); real whole = lane.p[1] * lane.p[2];
+    t_r3 J = vectors_three_in(S, 131, b); real contact = AT2(S, 134, b), radius = AT2(S, 130, b);
     if (lane.p[9] > R(0.0)) {
         for (int64_t n = 0; n < 6; n++) {
             for (int64_t c = 0; c < 6; c++) { AT2(first, n, c) = AT2(last, n, c); }
         }
         if (lane.p[9] != whole) { following_shortened(first, whole / lane.p[9]); }
     }
-    else { following_series(body, J, contact, radius, whole, traced, V, first); }
-    following_series(now, J, contact, radius, whole, traced, V, last);
-    return following_joined(first, last, radius, traced, curve);
+    else { following_series(r2_row(crew.bodies, b), J, contact, radius, whole, traced, crew.V, first); }
+    following_series(crew.now, J, contact, radius, whole, traced, crew.V, last);
+    return following_joined(first, last, radius, traced, r3_row(crew.curves, b));
 }
 
 INLINE real following_spinning(r2 E, int64_t B, int64_t b) {
@@ -3684,16 +3665,17 @@ INLINE real following_spinning(r2 E, int64_t B, int64_t b) {
     return R(sqrt(found));
 }
 
-INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real interval, real start, real bearable,
-    int traced, r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2 curve, r1 now) {
-    int inside; t_r2 off; real speed, worst, more, rounding; AT2(E, 78, b) = R(0.0); AT2(E, 82, b) = R(0.0);
+INLINE void following_looked_at(Crew crew, int64_t B, int64_t b, int lost, int traced, r2 sums, Asked asked) {
+    int inside; t_r2 off; real speed, worst, more, rounding; r2 S = crew.S, E = crew.E;
+    r1 lane = r2_row(crew.lanes, b); int64_t i = (int64_t)AT2(crew.lanes, b, 4);
+    real start = asked.start.p[i], bearable = R(0.4) * asked.most.p[i]; AT2(E, 78, b) = R(0.0);
+    AT2(E, 82, b) = R(0.0);
     if (AT2(S, 135, b) != R(0.0)) { lane.p[12] = R(0.0); return; }
-    following_judged(S, E, b, lost, start, sums, state, lane);
+    following_judged(crew, b, lost, start, sums);
     if (lane.p[12] == R(3.0)) {
-        inside = following_part_of(lane, (int64_t)lane.p[5], interval) < R(0.999999999);
+        inside = following_part_of(lane, (int64_t)lane.p[5], asked.interval) < R(0.999999999);
         if (inside) {
-            lanes_taken_out(S, b, now); off = following_through(S, b, body, now, traced, lane, V, first, last, curve);
-            speed = lane.p[11] / lane.p[2];
+            lanes_taken_out(S, b, crew.now); off = following_through(crew, b, traced); speed = lane.p[11] / lane.p[2];
             worst = speed > R(0.0) ? max_r(off.a0 * max_r(following_spinning(E, B, b) / speed, R(1.0)), off.a1) :
                 max_r(off.a0, off.a1);
             more = max_r(following_lengthened(worst / (R(0.4) * bearable)), R(0.3)) * lane.p[1]; lane.p[20] = more;
@@ -3717,7 +3699,7 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real
         AT2(E, 78, b) = lane.p[1] * lane.p[2]; AT2(E, 82, b) = rounding * rounding; AT2(S, 117, b) = R(0.0);
     }
     else { AT2(E, 79, b) = R(0.0); AT2(E, 80, b) = R(0.0); AT2(E, 81, b) = R(0.0); }
-    if (lane.p[12] == R(1.0)) { lanes_put_back(S, b, body); }
+    if (lane.p[12] == R(1.0)) { lanes_put_back(S, b, r2_row(crew.bodies, b)); }
 }
 
 INLINE t_r3 carried_ended(r2 E, int64_t i, real half, real twelfth) {
@@ -3883,8 +3865,8 @@ INLINE void following_ball_at(r2 curve, real s, r1 body, int traced, r1 found) {
     if (traced) { found.p[10] = following_at_part(curve, 4, s); found.p[11] = following_at_part(curve, 5, s); }
 }
 
-INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, real allowed, real most, int patient,
-    r1 lane, r2 reported) {
+INLINE void following_recorded(Crew crew, int64_t B, int64_t b, int64_t i, real end, Asked asked, r2 reported) {
+    r2 E = crew.E; r1 lane = r2_row(crew.lanes, b); real allowed = asked.allowed.p[i], most = asked.most.p[i];
     AT2(reported, i, 4) = AT2(reported, i, 4) + R(1.0);
     real cautious = R(20.0) + R(32.0) / AT2(reported, i, 4), off = lane.p[14], out = lane.p[15];
     real speed = lane.p[11] / lane.p[2], turned = R(2.0) * AT2(E, 86, b), spun = R(2.0) * AT2(E, 87, b);
@@ -3894,7 +3876,7 @@ INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, 
     AT2(reported, i, 2) = max_r(AT2(reported, i, 2), rolled + out); lane.p[7] = max_r(lane.p[7], speed);
     real left = max_r(turned, rolled), until = min_r((lane.p[0] + lane.p[1]) / end, R(1.0));
     real share = R(0.1) + R(0.9) * until;
-    if (left > share * most && AT2(reported, i, 3) < R(0.25) * left && !patient) {
+    if (left > share * most && AT2(reported, i, 3) < R(0.25) * left && !asked.patient) {
         AT2(reported, i, 5) = min_r(until, R(0.999999999));
     }
     lane.p[18] = left > R(0.0) ? allowed * min_r(max_r(R(0.4) * most * share / left, R(0.02)), R(2.0)) : allowed;
@@ -3902,7 +3884,7 @@ INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, 
 }
 
 INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked asked, Weights weights, Ends outcome,
-    r2 reported, real interval, int patient) {
+    r2 reported) {
     int lost, done, there, alike; int64_t i, frame; real fate, part, wish; ALIGNED real S_[140 * (4 * B)];
     memset(S_, 0, sizeof S_); r2 S = {S_, 140, (4 * B), (4 * B)}; ALIGNED real E_[119 * (4 * B)];
     memset(E_, 0, sizeof E_); r2 E = {E_, 119, (4 * B), (4 * B)}; int64_t columns = weights.sums.n1;
@@ -3915,21 +3897,19 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
     memset(ends_, 0, sizeof ends_); r3 ends = {ends_, (2 * B), 6, 6, 6 * 6, 6}; ALIGNED real V_[16 * 6];
     memset(V_, 0, sizeof V_); r2 V = {V_, 16, 6, 6}; ALIGNED real curves_[B * 12 * 6];
     memset(curves_, 0, sizeof curves_); r3 curves = {curves_, B, 12, 6, 12 * 6, 6};
+    Crew crew = (Crew){S, E, bodies, states, lanes, ends, curves, V, now};
     int64_t count = frames.momenta.n0, kept = frames.momenta.n1; int traced = frames.traced;
-    real end = (kept - 1) * interval; int64_t coming = min_i(B, count), busy = min_i(B, count); int fresh = 1;
+    real interval = asked.interval, end = (kept - 1) * interval;
+    int64_t coming = min_i(B, count), busy = min_i(B, count); int fresh = 1;
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        exponents.p[b] = following_taken_in(S, E, B, b, min_i(b, count - 1), frames, balls, interval, weights, asked,
-            r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), reported);
+        exponents.p[b] = following_taken_in(crew, B, b, min_i(b, count - 1), frames, balls, weights, asked);
         AT2(S, 135, b) = b < count ? R(0.0) : R(1.0);
     }
     while (busy > 0) {
         if (fresh) { carried_tangent(S, E, B, 0, traced); fresh = 0; }
         lost = lanes_side_by_side(S, B, traced, weights); carried_changes(S, E, B);
         for (int64_t b = 0, end_b = B; b < end_b; b++) {
-            i = (int64_t)AT2(lanes, b, 4);
-            following_looked_at(S, E, B, b, lost, interval, asked.start.p[i], R(0.4) * asked.most.p[i], traced,
-                weights.sums, r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), V, r3_row(ends, 2 * b),
-                r3_row(ends, 2 * b + 1), r3_row(curves, b), now);
+            following_looked_at(crew, B, b, lost, traced, weights.sums, asked);
         }
         carried_tangent(S, E, B, 19, traced); carried_carry(S, E, B, traced);
         for (int64_t b = 0, end_b = B; b < end_b; b++) {
@@ -3957,12 +3937,11 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
                             }
                             frame = frame + 1; part = following_part_of(r2_row(lanes, b), frame, interval);
                         }
-                        following_recorded(E, B, b, i, end, asked.allowed.p[i], asked.most.p[i], patient,
-                            r2_row(lanes, b), reported);
-                        int64_t t_1 = frame; real t_2 = R(0.0), t_3 = AT2(lanes, b, 0) + AT2(lanes, b, 1);
-                        AT2(lanes, b, 5) = t_1; AT2(lanes, b, 6) = t_2; AT2(lanes, b, 0) = t_3;
-                        AT2(lanes, b, 3) = AT2(lanes, b, 3) - R(1.0); lanes_taken_out(S, b, r2_row(bodies, b));
-                        there = AT2(lanes, b, 3) < R(0.5); wish = min_r(AT2(lanes, b, 13), AT2(lanes, b, 20));
+                        following_recorded(crew, B, b, i, end, asked, reported); int64_t t_1 = frame;
+                        real t_2 = R(0.0), t_3 = AT2(lanes, b, 0) + AT2(lanes, b, 1); AT2(lanes, b, 5) = t_1;
+                        AT2(lanes, b, 6) = t_2; AT2(lanes, b, 0) = t_3; AT2(lanes, b, 3) = AT2(lanes, b, 3) - R(1.0);
+                        lanes_taken_out(S, b, r2_row(bodies, b)); there = AT2(lanes, b, 3) < R(0.5);
+                        wish = min_r(AT2(lanes, b, 13), AT2(lanes, b, 20));
                         alike = wish * R(1.15) >= AT2(lanes, b, 1) && wish <= R(1.15) * AT2(lanes, b, 1);
                         if (there) { AT2(lanes, b, 0) = AT2(lanes, b, 19) * interval; }
                         done = there && AT2(lanes, b, 19) == kept - 1;
@@ -3987,8 +3966,7 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
             if (done) {
                 AT2(reported, i, 1) = AT2(lanes, b, 7) > R(0.0) ? AT2(lanes, b, 8) / AT2(lanes, b, 7) : R(0.0);
                 if (coming < count) {
-                    exponents.p[b] = following_taken_in(S, E, B, b, coming, frames, balls, interval, weights, asked,
-                        r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), reported);
+                    exponents.p[b] = following_taken_in(crew, B, b, coming, frames, balls, weights, asked);
                     coming = coming + 1; fresh = 1;
                 }
                 else { AT2(S, 135, b) = R(1.0); busy = busy - 1; }
@@ -3997,14 +3975,12 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, Asked 
     }
 }
 
-INLINE void following_follow(Frames frames, Balls balls, Asked asked, Weights weights, Ends ends, r2 reported, real
-    interval, int patient) {
-    following_follow_lanes(8, frames, balls, asked, weights, ends, reported, interval, patient);
+INLINE void following_follow(Frames frames, Balls balls, Asked asked, Weights weights, Ends ends, r2 reported) {
+    following_follow_lanes(8, frames, balls, asked, weights, ends, reported);
 }
 
-INLINE void following_follow_alone(Frames frames, Balls balls, Asked asked, Weights weights, Ends ends, r2 reported,
-    real interval, int patient) {
-    following_follow_lanes(1, frames, balls, asked, weights, ends, reported, interval, patient);
+INLINE void following_follow_alone(Frames frames, Balls balls, Asked asked, Weights weights, Ends ends, r2 reported) {
+    following_follow_lanes(1, frames, balls, asked, weights, ends, reported);
 }
 
 INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
@@ -4088,15 +4064,15 @@ WIDER static void in_lanes_march_alone(const argument *a, argument *got) {
 
 WIDEST static void in_following_follow(const argument *a, argument *got) {
     following_follow((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
-        (Asked){r1_(9), r1_(10), r1_(11), r1_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){i1_(16), i1_(17),
-        d1_(18)}, r2_(19), r_(20), b_(21));
+        (Asked){r1_(9), r1_(10), r1_(11), r1_(12), r_(13), b_(14)}, (Weights){r2_(15), r3_(16), r2_(17)},
+        (Ends){i1_(18), i1_(19), d1_(20)}, r2_(21));
     (void)got;
 }
 
 WIDER static void in_following_follow_alone(const argument *a, argument *got) {
     following_follow_alone((Frames){r3_(0), r3_(1), r3_(2), r3_(3), b_(4), b_(5)}, (Balls){r2_(6), r1_(7), r1_(8)},
-        (Asked){r1_(9), r1_(10), r1_(11), r1_(12)}, (Weights){r2_(13), r3_(14), r2_(15)}, (Ends){i1_(16), i1_(17),
-        d1_(18)}, r2_(19), r_(20), b_(21));
+        (Asked){r1_(9), r1_(10), r1_(11), r1_(12), r_(13), b_(14)}, (Weights){r2_(15), r3_(16), r2_(17)},
+        (Ends){i1_(18), i1_(19), d1_(20)}, r2_(21));
     (void)got;
 }
 
@@ -4194,8 +4170,8 @@ const loop_export LOOPS()[] = {
 #ifdef LONG
     {"lanes_march", "r3* r3* r3* r3* b* b* r2 r1 r1 i1* i1* d1* r i i i r2 r3 r2 r2*", "", in_lanes_march},
     {"lanes_march_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 i1* i1* d1* r i i i r2 r3 r2 r2*", "", in_lanes_march_alone},
-    {"following_follow", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 i1* i1* d1* r2* r b", "", in_following_follow},
-    {"following_follow_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r2 r3 r2 i1* i1* d1* r2* r b", "", in_following_follow_alone},
+    {"following_follow", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r b r2 r3 r2 i1* i1* d1* r2*", "", in_following_follow},
+    {"following_follow_alone", "r3* r3* r3* r3* b* b* r2 r1 r1 r1 r1 r1 r1 r b r2 r3 r2 i1* i1* d1* r2*", "", in_following_follow_alone},
 #else
     {"loop_prepare", "r1 r1 r1 r r1 r1* r2*", "r", in_loop_prepare},
     {"loop_march", "r1* r2* r2* r1* r1* r* r1 r3 i i i i r r2* r2* r2* r2* b*", "iir", in_loop_march},
@@ -4219,6 +4195,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "85002382efd64120d21a81b6f4e4fbd6c3e725ff7692121c46d8ab17506dca91";
+const char loops_text[] = "7c516cf7d8d3e6a8f70137502afe712280b91048c5fdd1881e0e9d4506a3524c";
 #endif
 #endif

@@ -608,6 +608,7 @@ def _run(
     """
     n, ball, follows, traced = len(problem), problem.ball, problem.attitude is not None, problem.contact
     reported, reach, noise, started = np.zeros((n, REPORTED)), np.empty(n), np.empty(n), np.empty(n)
+    reported[:, UNTIL] = 1.0
     frames = records.Frames(
         found.angular_momentum, found.gamma, np.empty((n, 0, 4)) if found.attitude is None else found.attitude,
         np.empty((n, 0, 2)) if found.contact is None else found.contact, follows, traced,
@@ -618,10 +619,10 @@ def _run(
     loop, width = (native.loop(follow_alone), 1) if n < FEW else (native.loop(follow), TOGETHER)
     shortest = first.item() if n == 1 else float(first.min(initial=problem.end))
     quick = n * (problem.end * STEP + problem.frames * FRAME * shortest) <= QUICK * shortest
-    asked = following.Asked(first, allowed, problem.survey[MOST], problem.survey[START])
+    asked = following.Asked(first, allowed, problem.survey[MOST], problem.survey[START], problem.interval, patient)
     weights = loop_weights(MOST_COLUMNS)
     if n == 1 and quick:
-        loop(frames, balls, asked, weights, ends, reported, problem.interval, patient)
+        loop(frames, balls, asked, weights, ends, reported)
     else:
 
         def task(at: int) -> None:
@@ -629,7 +630,7 @@ def _run(
                 return
             some = slice(at, at + width)
             parts = (of_some(record, some) for record in (frames, balls, asked))
-            loop(*parts, weights, of_some(ends, some), reported[some], problem.interval, patient)
+            loop(*parts, weights, of_some(ends, some), reported[some])
             count.add(len(reach[some]))
 
         def look() -> None:

@@ -10,7 +10,7 @@ are not fitted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -217,7 +217,7 @@ def extrapolate(
         doubt = double_double.run_long(balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress)
     else:
         given = frames.some(slice(None), contact), records.Balls(J, D, radius), frames.ends(slice(None))
-        doubt = _march(given, h, Steps(0, steps, kept), loop_weights(columns), threads, not shape, progress)
+        doubt = _march(given, h, Steps(0, steps, kept), loop_weights(columns), threads, progress)
     if not shape and frames.status[0]:
         raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]), int(frames.taken[0]))
 
@@ -236,40 +236,23 @@ def extrapolate(
 
 
 def _march(
-    given: tuple[records.Frames, records.Balls, records.Ends], h: float, steps: Steps, weights: Weights, threads: int,
-    alone: bool, progress: Callable[[int], None],
-) -> Floats:  # fmt: skip
-    """Takes all long steps, of one ball (`alone`) or of many; returns doubt, (n,)."""
+    given: tuple[Any, ...], h: float, steps: Steps, weights: Weights, threads: int, progress: Callable[[int], None]
+) -> Floats:
+    """Takes all long steps of the balls of the frames, balls and ends that are given; returns doubt, (n,)."""
     n, stages, status = len(given[1].contact), stages_of(weights.sums.shape[1]), given[2].status
-    doubt = np.empty(n)
+    doubt, blocks = np.empty(n), (n + EIGHT - FEW) // EIGHT if native.is_compiled() else 0  # the last has idle lanes
 
-    def chunks(some: slice, width: int) -> Iterator[int]:
-        """Takes the steps of some balls in chunks, between which it can be interrupted; yields the steps taken."""
-        kept = np.empty((ROWS + loop.ROWS, LANES * width))
+    def task(at: int) -> None:
+        """Takes the steps of some balls in parts, between which it can be interrupted."""
+        first, width = (EIGHT * at, EIGHT) if at < blocks else (EIGHT * blocks + at - blocks, 1)
+        some, kept = slice(first, first + width), np.empty((ROWS + loop.ROWS, LANES * width))
         own, take = [of_some(record, some) for record in given], native.loop(march_alone if width == 1 else march)
         for part in parts(steps, CHUNK // stages) if steps.last else [steps]:
             take(*own, h, part, weights, kept)
-            yield part.last - part.first
-            if status[some].all():
-                break  # all have stopped
-        doubt[some] = kept[MOVED + DOUBT, : len(doubt[some])]
-
-    if alone:
-        done = 0
-        for more in chunks(slice(0, 1), 1):
-            done += more
-            if not status[0]:
-                progress(done)
-        return np.where(status, nan, doubt)
-    blocks = (n + EIGHT - FEW) // EIGHT if native.is_compiled() else 0  # the last may have idle lanes
-
-    def task(at: int) -> None:
-        first, width = (EIGHT * at, EIGHT) if at < blocks else (EIGHT * blocks + at - blocks, 1)
-        some = slice(first, first + width)
-        for more in chunks(some, width):
-            count.add(more * len(doubt[some]))
-            if count.stopped:
+            count.add((part.last - part.first) * len(doubt[some]))
+            if count.stopped or status[some].all():
                 break
+        doubt[some] = kept[MOVED + DOUBT, : len(doubt[some])]
 
     tasks, work = range(blocks + max(0, n - EIGHT * blocks)), steps.last * n * stages
     workers, count = min(threads or cores(), len(tasks)) if work >= SHORT_RUN else 1, Count(progress)

@@ -205,7 +205,7 @@ def test_the_intervals_cover_the_path(monkeypatch):
         S = B + (bent + bent.T) / 2 - np.outer(k, u) - np.outer(u, k)
         eigenvalues = np.linalg.eigvalsh(B)[0], np.linalg.eigvalsh(S)[0]
         assert proved == (eigenvalues[1] > 0)
-        a, b, most = np.array(calls)[:, :3].T
+        a, b, most = np.array([call[:3] for call in calls]).T
         assert [a[0], *a[1:], 1.0] == [0.0, *b[:-1], b[-1]]
         assert (most >= np.where((a <= 0.5) & (b >= 0.5), 0.25, np.maximum(a * (1 - a), b * (1 - b)))).all()
         component = x @ k / half**2
@@ -215,7 +215,7 @@ def test_the_intervals_cover_the_path(monkeypatch):
             spread + 2 * half,
             half * np.sqrt(square) - k @ u,
         ]
-        for _, _, _, found, c, along, across, length, slope, bent, first, last in calls:
+        for *_, (found, c, along, across, length, slope, bent, first, last) in calls:
             assert 0 <= c <= 1
             assert (found, length, last) == (square, half, least)
             assert [along, across, slope, bent] == pytest.approx(exact, abs=1e-12)
@@ -263,7 +263,7 @@ def test_an_interval_is_small_where_it_says_so():
         low, high = 0.0, 1e3
         for _ in range(50):
             middle = (low + high) / 2
-            small = path.small_between(a, b, most, square, c, along, across, half, middle, sag, first, last)
+            small = path.small_between(a, b, most, (square, c, along, across, half, middle, sag, first, last))
             low, high = (middle, high) if small else (low, middle)
         if low == 0.0:
             continue  # m is not positive
@@ -276,4 +276,4 @@ def test_an_interval_is_small_where_it_says_so():
         closest = max(closest, used)
     assert closest > 0.95
     # r = s(1 - s) is 0 at both ends, and not between.
-    assert not path.small_between(0.0, 1.0, 0.25, 1.0, 1.0, 0.0, 0.0, 1.0, 8.0, 0.0, 1.0, 1.0)
+    assert not path.small_between(0.0, 1.0, 0.25, (1.0, 1.0, 0.0, 0.0, 1.0, 8.0, 0.0, 1.0, 1.0))

@@ -18,7 +18,7 @@ from .path import MOST_ROUNDS as PATH_ROUNDS
 from .path import improved, proved
 from .records import Ends, Frames, Stages, Start, Steps
 from .text import Doubles, Integers, Matrix, Vector, lanes, out_of_line
-from .vectors import four_in, plus, put, put_four, put_four_in, put_in, scaled, square, three, three_in, unit
+from .vectors import four, four_in, plus, put, put_four, put_four_in, put_in, scaled, square, three, three_in, unit
 
 #: The most balls in a block: its rows stay in the first-level cache.
 LANES = 40
@@ -245,8 +245,7 @@ def stop(S, T, radius, status, ok):
         if (i >= len(status) or status[i] != 0) and ok[i] == 0 and radius[0, i] != STOPPED:
             for stage in range(len(radius)):
                 radius[stage, i] = STOPPED
-            for row in range(K, K + 3):
-                S[row, i] = T[row, i]
+            put_in(S, K, i, three_in(T, K, i))
 
 
 def turn_in(p, S, at, rest, i):
@@ -334,12 +333,10 @@ def keep(block, frame, frames, status):
     S, B = block.state, block.body
     for i in range(len(status)):
         if status[i] == 0:
-            for c in range(3):
-                frames.momenta[i, frame, c] = block.scale[i] * S[K + c, i]
-                frames.verticals[i, frame, c] = S[G + c, i]
+            put(frames.momenta[i, frame], 0, scaled(block.scale[i], three_in(S, K, i)))
+            put(frames.verticals[i, frame], 0, three_in(S, G, i))
             if frames.follows:
-                for c in range(4):
-                    frames.attitudes[i, frame, c] = B[c, i]
+                put_four(frames.attitudes[i, frame], 0, four_in(B, 0, i))
                 frames.traces[i, frame, 0], frames.traces[i, frame, 1] = B[4, i], B[5, i]
 
 
@@ -412,8 +409,7 @@ def march_blocks(
             if frames.follows:
                 for lane in range(len(ok)):
                     i = min(lane, high - low - 1)
-                    for row in range(4):
-                        B[row, lane] = some.attitudes[i, 0, row]
+                    put_four_in(B, 0, lane, four(some.attitudes[i, 0], 0))
                     B[4, lane], B[5, lane], B[6, lane] = 0.0, 0.0, rho[low + i]
         else:
             carry(kept.state, S, width)
@@ -422,8 +418,8 @@ def march_blocks(
         march_block(block, stages, steps, some, outcome, ok)
         for i in range(high - low):
             if outcome.status[i] != 0:
-                for row in range(3):
-                    ended[low + i, row], ended[low + i, 3 + row] = block.scale[i] * S[K + row, i], S[G + row, i]
+                put(ended[low + i], 0, scaled(block.scale[i], three_in(S, K, i)))
+                put(ended[low + i], 3, three_in(S, G, i))
     if n <= width:
         carry(S, kept.state, width)
         carry(H, kept.past, width)

@@ -27,7 +27,7 @@ from .carried import ROWS as ERRORS
 from .carried import SPUN as BY_ATTITUDE
 from .lanes import Weights, enter, placed, put_back, resized, safely, shown, stopped_at, taken_out
 from .records import Balls, Ends, Frames
-from .text import Matrix, Vector
+from .text import Cube, Matrix, Vector
 from .vectors import (
     conjugate,
     dot,
@@ -251,13 +251,33 @@ RESTING, AGAIN, STOPS, STAYS = 0.0, 1.0, 2.0, 3.0
 class Asked(NamedTuple):
     """The request for each ball, (balls,): the length of its first step in seconds, and its permitted error per second.
 
-    most: the permitted error at the end.  start: the rounding error of the start.
+    most: the permitted error at the end.  start: the rounding error of the start.  Frames are `interval` seconds apart;
+    patient: no ball is abandoned.
     """
 
     first: Vector
     allowed: Vector
     most: Vector
     start: Vector
+    interval: float
+    patient: bool
+
+
+class Crew(NamedTuple):
+    """The balls that are followed together: S of `lanes`, E of `carried`; of each lane the body, state and numbers.
+
+    ends: the series at the ends of its last step, (2 lanes, TERMS, PARTS); curves: its polynomials.  V, now: workspace.
+    """
+
+    S: Matrix
+    E: Matrix
+    bodies: Matrix
+    states: Matrix
+    lanes: Matrix
+    ends: Cube
+    curves: Cube
+    V: Matrix
+    now: Vector
 
 
 def steps_in(time, step):
@@ -307,23 +327,23 @@ def left(S, b, start):
     return max(GAIN, 1.0 / max(1.0 - ratio, 1.0 / MOST_GAIN)) * last * ratio, x, y, z
 
 
-def taken_in(S, E, B, b, i, frames, balls, interval, weights, asked, body, state, lane, reported):
+def taken_in(crew, B, b, i, frames, balls, weights, asked):
     """Puts the ball i into the lane b; returns the exponent of K."""
+    S, body, lane = crew.S, crew.bodies[b], crew.lanes[b]
     placed(body, i, frames)
     lane[:] = 0.0
     lane[WHICH], lane[NEXT], lane[ALLOWED], lane[WISH] = i, 1.0, asked.allowed[i], asked.first[i]
     lane[SETTLED], lane[SMOOTH] = ANYTHING, ANYTHING
-    aimed(lane, frames.momenta.shape[1], interval)
-    exponent = enter(S, B, b, i, balls, lane[STEP], weights, body, state)
+    aimed(lane, frames.momenta.shape[1], asked.interval)
+    exponent = enter(S, B, b, i, balls, lane[STEP], weights, body, crew.states[b])
     lane[UNIT] = 2.0 * S[at.LENGTH, b] / lane[STEP]
-    begun(E, B, b, three_in(S, at.TENSOR, b), asked.start[i])
-    for c in range(REPORTED):
-        reported[i, c] = 1.0 if c == UNTIL else 0.0
+    begun(crew.E, B, b, three_in(S, at.TENSOR, b), asked.start[i])
     return exponent
 
 
-def judged(S, E, b, lost, start, sums, state, lane):
+def judged(crew, b, lost, start, sums):
     """Decides the fate of a long step, and proposes the next length."""
+    S, E, lane = crew.S, crew.E, crew.lanes[b]
     step, tries = lane[STEP], lane[TRIES]
     size = lane[UNIT] * sqrt(square(three_in(S, at.OMEGA, b)))
     lane[SPEED], lane[FATE], lane[OFF], lane[OUT] = size, STAYS, 0.0, 0.0
@@ -331,7 +351,7 @@ def judged(S, E, b, lost, start, sums, state, lane):
         always = S[at.FIRSTS + 3, b] < 0.0  # its products would underflow
         stopped = 0
         if always or tries >= MOST_TRIES:
-            stopped, reached = safely(S, b, sums, state)
+            stopped, reached = safely(S, b, sums, crew.states[b])
             lane[STATUS], lane[REACH] = stopped, reached
             lane[FATE] = STAYS if stopped == 0 else STOPS
         if tries < MOST_TRIES and (stopped != 0 or not always):
@@ -357,8 +377,9 @@ def part_of(lane, frame, interval):
     return (frame * interval - lane[NOW]) / lane[STEP]
 
 
-def through(S, b, body, now, traced, lane, V, first, last, curve):
-    """Writes the polynomials of a step from `body` to `now`; returns their estimated errors (`joined`)."""
+def through(crew, b, traced):
+    """Writes the polynomials of a step from the body to `now`; returns their estimated errors (`joined`)."""
+    S, lane, first, last = crew.S, crew.lanes[b], crew.ends[2 * b], crew.ends[2 * b + 1]
     whole = lane[STEP] * lane[UNIT]
     J, contact, radius = three_in(S, at.TENSOR, b), S[at.CONTACT, b], S[at.RADIUS, b]
     if lane[KNOWN] > 0.0:
@@ -368,9 +389,9 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
         if lane[KNOWN] != whole:
             shortened(first, whole / lane[KNOWN])
     else:
-        series(body, J, contact, radius, whole, traced, V, first)
-    series(now, J, contact, radius, whole, traced, V, last)
-    return joined(first, last, radius, traced, curve)
+        series(crew.bodies[b], J, contact, radius, whole, traced, crew.V, first)
+    series(crew.now, J, contact, radius, whole, traced, crew.V, last)
+    return joined(first, last, radius, traced, crew.curves[b])
 
 
 def spinning(E, B, b):
@@ -382,13 +403,14 @@ def spinning(E, B, b):
     return sqrt(found)
 
 
-def recorded(E, B, b, i, end, allowed, most, patient, lane, reported):
+def recorded(crew, B, b, i, end, asked, reported):
     """Reports the errors of a ball after an accepted step, and sets the permitted error of the next steps.
 
     The errors are the propagated truncation errors and rounding errors.  A ball whose error exceeds its share of the
     accuracy is abandoned, to be followed again from its start with shorter steps, unless rounding dominates or
     `patient`.
     """
+    E, lane, allowed, most = crew.E, crew.lanes[b], asked.allowed[i], asked.most[i]
     reported[i, STEPS] += 1.0
     cautious = CAUTIOUS + CAUTIOUS_FEW / reported[i, STEPS]
     off, out, speed = lane[OFF], lane[OUT], lane[SPEED] / lane[UNIT]
@@ -401,27 +423,26 @@ def recorded(E, B, b, i, end, allowed, most, patient, lane, reported):
     left = max(turned, rolled)
     until = min((lane[NOW] + lane[STEP]) / end, 1.0)
     share = EARLY + (1.0 - EARLY) * until
-    if left > share * most and reported[i, WALKED] < 0.25 * left and not patient:
+    if left > share * most and reported[i, WALKED] < 0.25 * left and not asked.patient:
         reported[i, UNTIL] = min(until, 1.0 - AT_END)
     lane[ALLOWED] = allowed * min(max(WANTED * most * share / left, TIGHTER), LOOSER) if left > 0.0 else allowed
     lane[SPINNING] = max(lane[SPINNING], cautious * E[FOUND + 1, b] + spun + off * max(speed, spinning(E, B, b)))
 
 
-def looked_at(
-    S, E, B, b, lost, interval, start, bearable, traced, sums, body, state, lane, V, first, last,
-    curve, now,
-):  # fmt: skip
+def looked_at(crew, B, b, lost, traced, sums, asked):
     """Decides the fate of the step of a lane, and computes its polynomials if it has frames inside."""
+    S, E, lane, i = crew.S, crew.E, crew.lanes[b], int(crew.lanes[b, WHICH])
+    start, bearable = asked.start[i], BEARABLE * asked.most[i]
     E[WHOLE, b], E[ROUNDING, b] = 0.0, 0.0
     if S[at.RESTS, b] != 0.0:
         lane[FATE] = RESTING
         return
-    judged(S, E, b, lost, start, sums, state, lane)
+    judged(crew, b, lost, start, sums)
     if lane[FATE] == STAYS:
-        inside = part_of(lane, int(lane[NEXT]), interval) < 1.0 - AT_END
+        inside = part_of(lane, int(lane[NEXT]), asked.interval) < 1.0 - AT_END
         if inside:
-            taken_out(S, b, now)
-            off, out = through(S, b, body, now, traced, lane, V, first, last, curve)
+            taken_out(S, b, crew.now)
+            off, out = through(crew, b, traced)
             speed = lane[SPEED] / lane[UNIT]
             worst = max(off * max(spinning(E, B, b) / speed, 1.0), out) if speed > 0.0 else max(off, out)
             more = max(lengthened(worst / (WANTED * bearable)), LEAST) * lane[STEP]
@@ -444,25 +465,23 @@ def looked_at(
     else:
         E[PART, b], E[PART + 1, b], E[PART + 2, b] = 0.0, 0.0, 0.0
     if lane[FATE] == AGAIN:
-        put_back(S, b, body)
+        put_back(S, b, crew.bodies[b])
 
 
-def follow_lanes(B, frames, balls, asked, weights, outcome, reported, interval, patient):
-    """Follows balls from their frames 0 to all other frames, `interval` seconds apart; patient: abandons no ball.
+def follow_lanes(B, frames, balls, asked, weights, outcome, reported):
+    """Follows balls from their frames 0 to all other frames.
 
-    outcome, reported: (balls,), with the last frames that are reached, and (balls, REPORTED).
+    outcome: (balls,), with the last frames that are reached.  reported: (balls, REPORTED), 0 with 1 for UNTIL at first.
     """
     S, E, columns = np.zeros((at.ROWS, at.LANES * B)), np.zeros((ERRORS, at.LANES * B)), weights.sums.shape[1]
     states, exponents = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64)
     bodies, now, found, lanes = np.zeros((B, at.MOVING)), np.zeros(at.MOVING), np.zeros(at.MOVING), np.zeros((B, LANE))
     ends, V, curves = np.zeros((2 * B, TERMS, PARTS)), np.zeros((SERIES, TERMS)), np.zeros((B, 2 * TERMS, PARTS))
-    count, kept, traced = frames.momenta.shape[0], frames.momenta.shape[1], frames.traced
+    crew = Crew(S, E, bodies, states, lanes, ends, curves, V, now)
+    count, kept, traced, interval = frames.momenta.shape[0], frames.momenta.shape[1], frames.traced, asked.interval
     end, coming, busy, fresh = (kept - 1) * interval, min(B, count), min(B, count), True
     for b in range(B):
-        exponents[b] = taken_in(
-            S, E, B, b, min(b, count - 1), frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
-            reported,
-        )  # fmt: skip
+        exponents[b] = taken_in(crew, B, b, min(b, count - 1), frames, balls, weights, asked)
         S[at.RESTS, b] = 0.0 if b < count else 1.0
     while busy > 0:
         if fresh:
@@ -471,11 +490,7 @@ def follow_lanes(B, frames, balls, asked, weights, outcome, reported, interval, 
         lost = at.side_by_side(S, B, traced, weights)
         changes(S, E, B)
         for b in range(B):
-            i = int(lanes[b, WHICH])
-            looked_at(
-                S, E, B, b, lost, interval, asked.start[i], BEARABLE * asked.most[i], traced, weights.sums, bodies[b],
-                states[b], lanes[b], V, ends[2 * b], ends[2 * b + 1], curves[b], now,
-            )  # fmt: skip
+            looked_at(crew, B, b, lost, traced, weights.sums, asked)
         tangent(S, E, B, LAST_END, traced)
         carry(S, E, B, traced)
         for b in range(B):
@@ -499,7 +514,7 @@ def follow_lanes(B, frames, balls, asked, weights, outcome, reported, interval, 
                         shown(found, exponents[b], i, frame, frames)
                     frame += 1
                     part = part_of(lanes[b], frame, interval)
-                recorded(E, B, b, i, end, asked.allowed[i], asked.most[i], patient, lanes[b], reported)
+                recorded(crew, B, b, i, end, asked, reported)
                 lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
                 lanes[b, COMING] = lanes[b, COMING] - 1.0
                 taken_out(S, b, bodies[b])
@@ -517,27 +532,18 @@ def follow_lanes(B, frames, balls, asked, weights, outcome, reported, interval, 
             if done:
                 reported[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
                 if coming < count:
-                    exponents[b] = taken_in(
-                        S, E, B, b, coming, frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
-                        reported,
-                    )  # fmt: skip
+                    exponents[b] = taken_in(crew, B, b, coming, frames, balls, weights, asked)
                     coming, fresh = coming + 1, True
                 else:
                     S[at.RESTS, b] = 1.0
                     busy -= 1
 
 
-def follow(
-    frames: Frames, balls: Balls, asked: Asked, weights: Weights, ends: Ends, reported: Matrix, interval: float,
-    patient: bool,
-):  # fmt: skip
+def follow(frames: Frames, balls: Balls, asked: Asked, weights: Weights, ends: Ends, reported: Matrix):
     """`follow_lanes` with eight balls at a time."""
-    follow_lanes(at.EIGHT, frames, balls, asked, weights, ends, reported, interval, patient)
+    follow_lanes(at.EIGHT, frames, balls, asked, weights, ends, reported)
 
 
-def follow_alone(
-    frames: Frames, balls: Balls, asked: Asked, weights: Weights, ends: Ends, reported: Matrix, interval: float,
-    patient: bool,
-):  # fmt: skip
+def follow_alone(frames: Frames, balls: Balls, asked: Asked, weights: Weights, ends: Ends, reported: Matrix):
     """`follow_lanes` with one ball at a time."""
-    follow_lanes(1, frames, balls, asked, weights, ends, reported, interval, patient)
+    follow_lanes(1, frames, balls, asked, weights, ends, reported)

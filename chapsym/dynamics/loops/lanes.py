@@ -28,6 +28,7 @@ import numpy as np
 from chapsym.generated import angular_velocity, centre_step, compose, gibbs_newton, gibbs_newton_heavy, rotate, turn
 
 from . import loop
+from .block import carry
 from .branch import NOT_CONVERGED
 from .gibbs import LEFT, LIGHTEST, bound, certificate, is_heavy, round_from, second_round, settle
 from .records import Balls, Ends, Frames, Steps
@@ -200,10 +201,8 @@ def begin_second(S, B, lane, weights):
     """Starts the second column of a lane of every ball."""
     for b in lanes(B):
         start(S, lane * B + b, SECONDS)
-    w0, w1, w2, w3, w4, w5, w6, w7 = (
-        weights[lane, 0], weights[lane, 1], weights[lane, 2], weights[lane, 3],
-        weights[lane, 4], weights[lane, 5], weights[lane, 6], weights[lane, 7],
-    )  # fmt: skip
+    w0, w1, w2, w3 = four(weights[lane], 0)
+    w4, w5, w6, w7 = four(weights[lane], 4)
     for b in lanes(B):  # no loop over components: compilers would unroll the eight balls, and not vectorise
         omega, rate, curve = three_in(S, OMEGA, b), three_in(S, RATE, b), three_in(S, CURVE, b)
         first, second, later = three_in(S, KEPT, b), three_in(S, KEPT, B + b), three_in(S, LATER, b)
@@ -566,9 +565,7 @@ def march_lanes(B, frames, balls, ends, h, steps, weights, kept):
         placed(body, i, frames)
         exponents[b] = enter(S, B, b, i, balls, h, weights, body, states[b])
     if steps.first > 0:
-        for row in range(ROWS):
-            for lane in range(LANES * B):
-                S[row, lane] = kept[row, lane]
+        carry(kept, S, LANES * B)
         for b in range(B):
             for row in range(loop.ROWS):
                 states[b, row] = kept[ROWS + row, b]
@@ -587,9 +584,7 @@ def march_lanes(B, frames, balls, ends, h, steps, weights, kept):
                 if ends.status[b] == 0:
                     taken_out(S, b, body)
                     shown(body, exponents[b], b, (step + 1) // steps.every, frames)
-    for row in range(ROWS):
-        for lane in range(LANES * B):
-            kept[row, lane] = S[row, lane]
+    carry(S, kept[:ROWS], LANES * B)
     for b in range(B):
         for row in range(loop.ROWS):
             kept[ROWS + row, b] = states[b, row]

@@ -18,7 +18,7 @@ from .integrals import PERIOD, remember, restore, turned
 from .path import search_on_path
 from .records import Moving, Stages, Steps, Track
 from .text import Doubles, Integers, Matrix, Vector, out_of_line
-from .vectors import largest, plus, put, put_four, scaled, scaled_four, shifted, three, unit
+from .vectors import four, largest, plus, put, put_four, scaled, scaled_four, shifted, three, unit
 
 #: The largest binary exponent for the scaling of a ball.
 HIGHEST = 1021
@@ -106,9 +106,8 @@ def safe_rotation(u, state):
 
 def follow_body(p, g, attitude, contact, radius):
     """Moves the attitude and the contact point by the step with the quaternion p from the vertical g."""
-    a = attitude[0], attitude[1], attitude[2], attitude[3]
-    a, contact[0], contact[1] = followed(p, g, a, contact[0], contact[1], radius)
-    attitude[0], attitude[1], attitude[2], attitude[3] = a
+    a, contact[0], contact[1] = followed(p, g, four(attitude, 0), contact[0], contact[1], radius)
+    put_four(attitude, 0, a)
 
 
 def followed(p, g, a, x, y, radius):
@@ -180,8 +179,7 @@ def march(ball: Moving, stages: Stages, steps: Steps, begun: int, scale: float, 
             put(track.momenta[frame], 0, scaled(scale, k))
             put(track.verticals[frame], 0, g)
             if track.follows:
-                for i in range(4):
-                    track.attitudes[frame, i] = ball.attitude[i]
+                put_four(track.attitudes[frame], 0, four(ball.attitude, 0))
                 track.traces[frame, 0], track.traces[frame, 1] = ball.contact[0], ball.contact[1]
     return step - steps.first, status, reach
 

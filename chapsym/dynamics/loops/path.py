@@ -80,19 +80,19 @@ def joined(u, size, k, half, g, I, D, spread):
     # Numbers from single comparisons, as compilers do not vectorise combined conditions.
     proved = 1.0 if first > 0.0 else 0.0
     proved = proved if last > 0.0 else 0.0
-    proved = proved * small_between(0.0, 0.4, 0.24, size, c, along, across, half, slope, sag, first, last)
-    proved = proved * small_between(0.4, 0.65, 0.25, size, c, along, across, half, slope, sag, first, last)
-    proved = proved * small_between(0.65, 0.85, 0.2275, size, c, along, across, half, slope, sag, first, last)
-    proved = proved * small_between(0.85, 1.0, 0.1275, size, c, along, across, half, slope, sag, first, last)
+    path = size, c, along, across, half, slope, sag, first, last
+    for a, b, most in ((0.0, 0.4, 0.24), (0.4, 0.65, 0.25), (0.65, 0.85, 0.2275), (0.85, 1.0, 0.1275)):
+        proved = proved * small_between(a, b, most, path)
     return proved, last
 
 
-def small_between(a, b, most, size, c, along, across, half, slope, sag, first, last):
+def small_between(a, b, most, path):
     """1 if 4σs(1 - s)|R(s)| < m(s)² for a ≤ s ≤ b, where s(1 - s) ≤ most, else 0.
 
     R(s) has the component |k|r(s) along k, r = |u|²(1 + s) - c(1 + s²|u|²) - `along`, which is concave, and the
     square `across` across it; m(s) = (1 - s)·first + s·last - s(1 - s)·sag at least.
     """
+    size, c, along, across, half, slope, sag, first, last = path
     start = size * (1.0 + a) - c * (1.0 + a * a * size) - along
     end = size * (1.0 + b) - c * (1.0 + b * b * size) - along
     r = max(abs(start), abs(end)) + 0.25 * (b - a) * (b - a) * c * size
