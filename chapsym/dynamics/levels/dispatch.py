@@ -15,7 +15,7 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..loops import double_double as pairs_loop
 from ..results import Bounds, Step
 from . import double, double_double, proved
-from .frames import Balls, Frames
+from .frames import Balls, Frames, untaken
 from .start import exponent_of, fraction
 
 #: The levels whose only numbers are floats.
@@ -45,8 +45,7 @@ def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None
             array.fill(np.nan)
     except (MemoryError, ValueError):
         raise no_room(count, n) from None
-    ends = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64), np.ones(n)
-    frames = Frames(momenta, verticals, attitudes, traces, *ends, attitude is not None, low, least)
+    frames = Frames(momenta, verticals, attitudes, traces, *untaken(n), attitude is not None, low, least)
     with np.errstate(over="ignore", under="ignore"):  # a precision of a smaller range refuses numbers beyond it
         frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
     if attitude is not None:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from functools import cache
+from itertools import starmap
 
 import numpy as np
 
@@ -85,19 +86,17 @@ def _add(rest: Floats, state: Floats, shift: int) -> None:
     loop.remember_pairs(state)
 
 
-def _begin(frames: Frames, i: int, state: Floats, rest: Floats | None) -> tuple[Floats, Floats]:
-    """Writes frame 0 of a ball, the attitude and the contact point as pairs."""
-    low = frames.halves
-    frames.gamma[i, 0], low.gamma[i, 0] = state[loop.G : loop.I : 2], state[loop.G + 1 : loop.I : 2]
+def _begin(frames: Frames, i: int, gamma: Floats, rest: Floats | None) -> Floats:
+    """Writes frame 0 of a ball with the vertical in pairs, (3, 2); returns the attitude, (4, 2), if it is followed."""
+    low, attitude = frames.halves, np.zeros((4, 2))
+    frames.gamma[i, 0], low.gamma[i, 0] = gamma.T
     low.momentum[i, 0] = 0.0 if rest is None else rest[i]
-    attitude, contact = np.zeros((4, 2)), np.zeros(4)
     if frames.with_body:
-        g = map(Pair, frames.gamma[i, 0], low.gamma[i, 0])
-        first = least_rotation(*g) if frames.least else normalised(frames.attitude[i, 0])
+        first = least_rotation(*starmap(Pair, gamma)) if frames.least else normalised(frames.attitude[i, 0])
         attitude[:] = [x.halves() for x in first]
         frames.attitude[i, 0], low.attitude[i, 0] = attitude.T
         low.contact[i, 0] = 0.0
-    return attitude.reshape(-1), contact
+    return attitude
 
 
 class OneBall:
@@ -113,8 +112,8 @@ class OneBall:
         self.scales = self.shift, beyond = native.loop(loop.prepare_pairs)(K, g, J, D, stages, state, limits)
         if balls.rest is not None:
             _add(balls.rest[i], state, self.shift)
-        body = _begin(frames, i, state, balls.rest)
-        self.moving = Moving(state, limits, past, *body, float(balls.radius[i]))
+        attitude = _begin(frames, i, state[loop.G : loop.I].reshape(3, 2), balls.rest).reshape(-1)
+        self.moving = Moving(state, limits, past, attitude, np.zeros(4), float(balls.radius[i]))
         self._tracks = frames.of(i), frames.halves.of(i)
         self._proof = proved.begun(state, stages, beyond) if proves else (np.empty((0, 2)), np.empty(0))
 
@@ -156,7 +155,7 @@ def _run_block(balls: Balls, which: slice, steps: Steps, frames: Frames, stages:
     for lane in range(n):
         if balls.rest is not None:
             _add(balls.rest[which.start + lane], state[:, lane], int(shift[lane]))
-        _begin(frames, which.start + lane, state[:, lane], balls.rest)
+        _begin(frames, which.start + lane, state[loop.G : loop.I, lane].reshape(3, 2), balls.rest)
     some, low, ends = frames.some(which), frames.halves.some(which), frames.ends(which)
     status = ends.status
     for part in parts(steps, CHUNK // loop.LANES):
@@ -177,20 +176,17 @@ def run_long(
     progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
     """Long steps of h seconds from K; frame 0 is rewritten as by `run`; returns the sum of the doubts, (n,)."""
-    low, doubt, count = frames.halves, np.zeros(len(balls.D)), Count(progress)
+    doubt, count = np.zeros(len(balls.D)), Count(progress)
     march = native.loop(loop.march_long_pairs)
 
     def task(i: int) -> None:
         g, body = normalised(balls.gamma[i]), np.zeros((6, 2))
-        of_attitude = frames.with_body and not frames.least
-        body[:4] = [x.halves() for x in (normalised(frames.attitude[i, 0]) if of_attitude else least_rotation(*g))]
-        frames.gamma[i, 0], low.gamma[i, 0] = np.array([x.halves() for x in g]).T
-        low.momentum[i, 0] = 0.0
-        if frames.with_body:
-            frames.attitude[i, 0], low.attitude[i, 0] = body[:4].T
-            low.contact[i, 0] = 0.0
+        body[:4] = _begin(frames, i, np.array([x.halves() for x in g]), None)
+        if not frames.with_body:
+            body[:4] = [x.halves() for x in least_rotation(*g)]
         start = balls.momentum[i], balls.gamma[i], body[:4].reshape(-1).copy(), balls.mass_tensor[i]
-        ball, tracks = loop.Still(*start, float(balls.D[i]), float(balls.radius[i])), (frames.of(i), low.of(i))
+        ball = loop.Still(*start, float(balls.D[i]), float(balls.radius[i]))
+        tracks = frames.of(i), frames.halves.of(i)
         for part in parts(Steps(0, steps, every), CHUNK // (len(weights) * loop.FIRST * 4)):
             went, frames.status[i], frames.reach[i], more = march(
                 ball, *h.halves(), weights, part, body.reshape(-1), *tracks

@@ -101,6 +101,11 @@ class Frames:
         return records.Ends(self.taken[which], self.status[which], self.reach[which])
 
 
+def untaken(n: int) -> records.Ends:
+    """The ends of balls before their first step."""
+    return records.Ends(np.zeros(n, np.int64), np.zeros(n, np.int64), np.ones(n))
+
+
 def parts(steps: Steps, size: int) -> Iterator[Steps]:
     """The steps of a run in parts of `size`, between which it can be interrupted."""
     for first in range(steps.first, steps.last, max(1, size)):

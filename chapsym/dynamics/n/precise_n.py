@@ -18,7 +18,8 @@ from chapsym.numbers.precisions import flint_bits
 from ..ball import Floats
 from ..errors import Status
 from ..levels.balls import GUARD, exact, in_context
-from ..levels.frames import Count
+from ..levels.frames import Count, untaken
+from ..loops.records import Ends, Steps
 from . import so_n
 from .branch_n import small_rotation
 
@@ -33,19 +34,18 @@ def run(
     state: dict[str, Floats],
     frames: dict[str, Any],
     stages: Sequence[Fraction],
-    steps: int,
-    every: int,
+    steps: Steps,
     count: Count,
     continued: Callable[..., Any],
-) -> tuple[np.ndarray, np.ndarray, Floats]:
-    """`run_n.run` at N digits: writes the frames, of objects, and returns (taken, status, reach), (b,).
+) -> Ends:
+    """`run_n.run` at N digits: writes the frames, of objects.
 
     continued: `run_n.continued`, which takes the steps.
     """
     balls, context = len(state["gamma"]), precision.context
-    outcome = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
+    ends = untaken(balls)
     # The effect of roundings grows with the square of the number of steps, as the frequencies drift.
-    bits = context.prec + 2 * math.ceil(math.log2(steps * len(stages) + 1)) + GUARD
+    bits = context.prec + 2 * math.ceil(math.log2(steps.last * len(stages) + 1)) + GUARD
     with flint_bits(bits):
         now: dict[str, Any] = {name: _exactly(x) for name, x in state.items()}
         now["gamma"] = now["gamma"] / _root((now["gamma"] ** 2).sum(axis=-1, keepdims=True))
@@ -54,11 +54,11 @@ def run(
         for name, array in frames.items():
             array[:, 0] = now[name]
         coefficients = [exact(c) for c in stages]
-        continued(now, frames, coefficients, steps, every, outcome, np.arange(balls), count, _rotations)
+        continued(now, frames, coefficients, steps, ends, np.arange(balls), count, _rotations)
     rounded = np.frompyfunc(lambda x: x if isinstance(x, float) else in_context(context, x, context.prec), 1, 1)
     for array in frames.values():
         array[...] = rounded(array)
-    return outcome
+    return ends
 
 
 def _rotations(K: Any, gamma: Any, J: Any, D: Any) -> tuple[Any, np.ndarray, Floats]:

@@ -22,10 +22,10 @@ from ..ball import Floats, brief, callback, common_shape, in_shape, is_followed,
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
-from ..levels.frames import Count, cores, share
+from ..levels.frames import Count, cores, share, untaken
 from ..loops import loop_n
 from ..loops.loop_n import Under
-from ..loops.records import Steps, Track
+from ..loops.records import Ends, Steps, Track
 from ..map import MOST_STEPS, flag, rolling_radius, whole_number
 from ..results import Step, Trajectory, finished, of_balls
 from ..stepper import UnderWay
@@ -44,11 +44,11 @@ UNCOUNTED = Count(lambda done: None)
 
 @np.errstate(under="ignore")
 def _stepped(
-    precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1,
+    precision: str | Precision, state: dict[str, Floats], order: int, steps: Steps, threads: int = 1,
     count: Count = UNCOUNTED,
-) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:  # fmt: skip
-    """The frames of a run from its start, (b, frames, ...), and (taken, status, reach), (b,); or BadInput."""
-    chosen, stages, kept = precision_of(precision), substeps(order), steps // every + 1
+) -> tuple[dict[str, Floats], Ends]:  # fmt: skip
+    """The frames of a run from its start, (b, frames, ...), and their ends; or BadInput."""
+    chosen, stages, kept = precision_of(precision), substeps(order), steps.last // steps.every + 1
     if not isinstance(chosen, Double | Digits):
         raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {brief(precision)}')
     moving = {name: state[name] for name in MOVING if name in state}
@@ -57,10 +57,10 @@ def _stepped(
     except (MemoryError, ValueError):
         raise no_room(kept, len(state["gamma"])) from None
     if isinstance(chosen, Double):
-        return frames, *run(state, frames, stages, steps, every, threads, count)
+        return frames, run(state, frames, stages, steps, threads, count)
     from . import precise_n  # takes 40 ms for mpmath
 
-    return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every, count, continued)
+    return frames, precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, count, continued)
 
 
 StepN, TrajectoryN = Step, Trajectory
@@ -106,7 +106,7 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str
     """
     shape, state = start(ball, momentum, gamma)
     state["attitude"] = np.broadcast_to(np.eye(ball.n), state["momentum"].shape)
-    frames, _, status, reach = _stepped(precision, state, 2, 1, 1)
+    frames, (_, status, reach) = _stepped(precision, state, 2, Steps(0, 1, 1))
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
     momentum, gamma, rotation = (in_shape(shape, x[:, 1]) for x in frames.values())
@@ -188,13 +188,13 @@ def trajectory_n(
     callback(progress)
     every = min(every, steps + 1)
     shape, state = start(ball, momentum, gamma, attitude, contact)
-    frames, taken, status, reach = _stepped(precision, state, order, steps, every, threads, Count(progress))
-    flat = (*(frames.get(name) for name in MOVING), taken, status)
+    frames, ends = _stepped(precision, state, order, Steps(0, steps, every), threads, Count(progress))
+    flat = (*(frames.get(name) for name in MOVING), ends.taken, ends.status)
     result = of_balls(
         Trajectory, shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order),
         precision=precision_of(precision),
     )  # fmt: skip
-    return finished(result, reach)
+    return finished(result, ends.reach)
 
 
 class StepperN(UnderWay):
@@ -299,23 +299,21 @@ class StepperN(UnderWay):
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         in_parts = self.order > 2 or not self._below
         before = self._state, deepcopy(self._one) if in_parts else self._one
-        taken, status, reach = self._march(steps, every, frames)
+        taken, status, reach = self._march(Steps(0, steps, every), frames)
         if status != Status.TAKEN and in_parts:  # some stages of the last step were taken
             self._state, self._one = before
-            self._march(taken, every, frames)
+            self._march(Steps(0, taken, every), frames)
         if frames is not self._ends or taken < steps:
             self._show()
         self._taken += taken
         return taken, status, reach
 
-    def _march(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
+    def _march(self, steps: Steps, frames: dict[str, Floats]) -> tuple[int, int, float]:
         if self._below:
-            return advance(self._one, frames, steps, every, UNCOUNTED)
-        outcome = taken, status, reach = np.zeros(1, dtype=np.int64), np.zeros(1, dtype=np.int64), np.ones(1)
-        batch = {name: array[np.newaxis] for name, array in frames.items()}
-        at = np.zeros(1, dtype=np.int64)
-        self._state = continued(self._state, batch, self._stages, steps, every, outcome, at, UNCOUNTED)
-        return int(taken[0]), int(status[0]), float(reach[0])
+            return advance(self._one, frames, steps, UNCOUNTED)
+        ends, batch = untaken(1), {name: array[np.newaxis] for name, array in frames.items()}
+        self._state = continued(self._state, batch, self._stages, steps, ends, np.zeros(1, np.int64), UNCOUNTED)
+        return int(ends.taken[0]), int(ends.status[0]), float(ends.reach[0])
 
     def _show(self) -> None:
         """Copies the state of the loop to the present state."""
@@ -351,39 +349,37 @@ def start(
 
 
 def run(
-    state: dict[str, Floats], frames: dict[str, Floats], stages: Floats, steps: int, every: int, threads: int = 1,
-    count: Count = UNCOUNTED,
-) -> tuple[np.ndarray, np.ndarray, Floats]:  # fmt: skip
-    """Takes `steps` steps of each ball into the frames from 1 on, of which every `every`-th is kept.
+    state: dict[str, Floats], frames: dict[str, Floats], stages: Floats, steps: Steps, threads: int, count: Count
+) -> Ends:
+    """Takes the steps of each ball into the frames from 1 on.
 
     state: momentum (b, n, n), gamma (b, n), mass_tensor (b, n) and D (b,); to be followed, attitude (b, n, n), contact
     (b, n-1) and radius (b,).  frames: arrays (b, frames, ...) of the moving quantities; frame 0 is written here.
     stages: cᵢ of the composition, (s,).  threads: the number of cores for compiled steps.  count: of the steps of all
-    balls.  Returns (taken, status, reach), (b,).
+    balls.
     """
     for name, array in frames.items():
         array[:, 0] = state[name]
     balls, n = state["gamma"].shape
-    outcome = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
+    ends = untaken(balls)
     near, enough = limits(state["momentum"], state["mass_tensor"], state["D"], stages)
     below = (near > 0).all(axis=-1)
     for at in blocks(np.flatnonzero(below), n):
         under = begun(some_balls(state, at), (near[at], enough[at]), stages)
-        march(under, frames, at, Steps(0, steps, every), outcome, threads, count)
+        march(under, frames, at, steps, ends, threads, count)
     for at in blocks(np.flatnonzero(~below), n):
-        continued(some_balls(state, at), frames, stages, steps, every, outcome, at, count)
-    return outcome
+        continued(some_balls(state, at), frames, stages, steps, ends, at, count)
+    return ends
 
 
 def march(
-    under: list[Under], frames: dict[str, Floats], at: np.ndarray, steps: Steps,
-    outcome: tuple[np.ndarray, np.ndarray, Floats], threads: int, count: Count,
-) -> None:  # fmt: skip
-    """Takes steps of balls below the bound, and writes the rows `at` of the frames and of (taken, status, reach)."""
+    under: list[Under], frames: dict[str, Floats], at: np.ndarray, steps: Steps, ends: Ends, threads: int, count: Count
+) -> None:
+    """Takes steps of balls below the bound, and writes the rows `at` of the frames and of the ends."""
 
     def task(i: int) -> None:
         own = {name: array[at[i]] for name, array in frames.items()}
-        for kept, found in zip(outcome, advance(under[i], own, steps.last, steps.every, count), strict=True):
+        for kept, found in zip(ends, advance(under[i], own, steps, count), strict=True):
             kept[at[i]] = found
 
     share(task, range(len(at)), min(threads or cores(), len(at)), count)
@@ -401,30 +397,28 @@ def some_balls(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
 
 
 def continued(
-    state: dict[str, Floats], frames: dict[str, Floats], stages: Iterable[Any], steps: int, every: int,
-    outcome: tuple[np.ndarray, np.ndarray, Floats], at: np.ndarray, count: Count,
-    rotations: Callable[..., tuple[Floats, np.ndarray, Floats]] = small_rotation,
+    state: dict[str, Floats], frames: dict[str, Floats], stages: Iterable[Any], steps: Steps, ends: Ends,
+    at: np.ndarray, count: Count, rotations: Callable[..., tuple[Floats, np.ndarray, Floats]] = small_rotation,
 ) -> dict[str, Floats]:  # fmt: skip
-    """Takes steps of some balls together, and writes the rows `at` of the frames and of (taken, status, reach).
+    """Takes steps of some balls together, and writes the rows `at` of the frames and of the ends.
 
     rotations: a function that finds the rotations of a stage, as `small_rotation` in float64.
     Returns the states of the balls that took all steps.
     """
-    taken, status, reach = outcome
-    for step in range(1, steps + 1):
+    for step in range(1, steps.last + 1):
         for c in stages:
             K, rest = c * state["momentum"], (state[x] for x in ("gamma", "mass_tensor", "D"))
-            E, status[at], reach[at] = rotations(K, *rest)
-            went = status[at] == Status.TAKEN
+            E, ends.status[at], ends.reach[at] = rotations(K, *rest)
+            went = ends.status[at] == Status.TAKEN
             if not went.all():
                 at, E, state = at[went], E[went], some_balls(state, went)
                 if not at.size:
                     return state
             state = _moved(state, E)
-        taken[at] += 1
-        if step % every == 0:
+        ends.taken[at] += 1
+        if step % steps.every == 0:
             for name in frames:
-                frames[name][at, step // every] = state[name]
+                frames[name][at, step // steps.every] = state[name]
         count.add(len(at))
     return state
 
@@ -464,7 +458,7 @@ def keep(one: Under, frames: dict[str, Floats], frame: int) -> None:
         array[frame] = now[name]
 
 
-def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count: Count) -> tuple[int, int, float]:
+def advance(one: Under, frames: dict[str, Floats], steps: Steps, count: Count) -> tuple[int, int, float]:
     """Takes steps of one ball into its own frames; returns (taken, status, reach)."""
     momenta, follows = frames["momentum"], "attitude" in frames
     attitudes = frames["attitude"] if follows else momenta[:0]
@@ -473,16 +467,16 @@ def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count
     track = Track(momenta, frames["gamma"], attitudes, traces, follows)
     s, done, take = len(one.c), 0, native.loop(loop_n.march)
     room = np.empty((len(one.g) * (len(one.g) - 1) // 2,) * 2)
-    while done < steps * s and not count.stopped:
-        last, before = min(done + CHUNK, steps * s), done
-        done = take(one, Steps(done, last, every), track, room)
+    while done < steps.last * s and not count.stopped:
+        last, before = min(done + CHUNK, steps.last * s), done
+        done = take(one, Steps(done, last, steps.every), track, room)
         if done < last:
             status, reach = _safely(one, done % s, follows)
             if status != Status.TAKEN:
                 return done // s, status, reach
             done += 1
-            if done % (s * every) == 0:
-                keep(one, frames, done // (s * every))
+            if done % (s * steps.every) == 0:
+                keep(one, frames, done // (s * steps.every))
         count.add(done // s - before // s)
     return done // s, Status.TAKEN, 1.0
 
