@@ -14,8 +14,9 @@ from chapsym.numbers import NAMED
 from ..ball import Ball, Floats, batch, callback, common_shape, in_shape, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels import dispatch, double
-from ..levels.frames import Balls, Frames, after
+from ..levels.frames import Balls, Frames, after, parts
 from ..loops import loop, vertical_loop
+from ..loops.records import Steps
 from ..map import MOST_STEPS, whole_number
 from ..results import Step, finished
 from ..shown import Brief
@@ -222,11 +223,10 @@ def _closed(
     k, inertia, state = ball[loop.K], ball[loop.I : loop.D], np.array([*g, 0.0, 0.0, 0.0, 0.0])
     if ball[loop.RADIUS] < 0.0:
         return False
-    for first in range(0, steps, double.CHUNK):  # the run can be interrupted between two of them
-        count = min(double.CHUNK, steps - first)
-        if not march(state, inertia, k, first, count, every, frames.gamma[i], q):
+    for part in parts(Steps(0, steps, every), double.CHUNK):  # the run can be interrupted between two of them
+        if not march(state, inertia, k, part, frames.gamma[i], q):
             return False
-        progress(first + count)
+        progress(part.last)
     frames.taken[i] = steps
     if frames.with_body:
         frames.attitude[i, 1] = q / np.sqrt(q @ q)

@@ -152,12 +152,13 @@ def _run_block(balls: Balls, which: slice, steps: Steps, frames: Frames, stages:
     shift, beyond = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
     start = Start(*(x[which] for x in (balls.momentum, balls.gamma, balls.mass_tensor, balls.D)))
     prepare(start, stages, state, shift, beyond)
-    for lane in range(n):
-        if balls.rest is not None:
+    if balls.rest is not None:
+        for lane in range(n):
             _add(balls.rest[which.start + lane], state[:, lane], int(shift[lane]))
-        _begin(frames, which.start + lane, state[loop.G : loop.I, lane].reshape(3, 2), balls.rest)
     some, low, ends = frames.some(which), frames.halves.some(which), frames.ends(which)
-    status = ends.status
+    status, gamma = ends.status, state[loop.G : loop.I, :n].T
+    some.verticals[:, 0], low.verticals[:, 0] = gamma[:, ::2], gamma[:, 1::2]
+    low.momenta[:, 0] = 0.0 if balls.rest is None else balls.rest[which]
     for part in parts(steps, CHUNK // loop.LANES):
         march(state, part, shift, some, low, ends)
         count.add(n * (part.last - part.first))

@@ -263,13 +263,13 @@ def carry(numbers, to, width):
 
 
 @out_of_line
-def enter(start, factor, S, scale, ok):
-    """`loop.entered` without `loop.limits`, with `factor` times 𝒦, for every lane; spare lanes repeat the last ball.
+def enter(start, low, factor, S, scale, ok):
+    """`loop.entered` without `loop.limits`, with `factor` times 𝒦, for balls from `low` on; spare lanes repeat one.
 
     Until `limited` the row of radius² has 1 for a ball whose momentum is tiny, and 0 for others.
     """
     for lane in range(len(ok)):
-        i = min(lane, len(start.contact) - 1)
+        i = low + min(lane, len(scale) - 1)
         m, tensor = scaled(factor, three(start.momentum[i], 0)), three(start.tensor[i], 0)
         exponent, tiny = scaling(m, tensor, start.contact[i])
         put_in(S, K, lane, times(m, -exponent - 1))
@@ -277,7 +277,7 @@ def enter(start, factor, S, scale, ok):
         put_in(S, J, lane, times(tensor, -exponent))
         S[D, lane], _, _ = times((start.contact[i], 0.0, 0.0), -exponent)
         S[RADIUS, lane] = 1.0 if tiny else 0.0
-        scale[i] = ldexp(1.0, exponent + 1)
+        scale[i - low] = ldexp(1.0, exponent + 1)
 
 
 def limited(S, radius, enough, ok):
@@ -298,14 +298,14 @@ def remembered(S, ok):
         S[INTEGRALS + 4, i], S[INTEGRALS + 5, i] = squared
 
 
-def prepare_block(start, c, block, ok):
-    """`loop.prepare` for each ball of a block."""
+def prepare_block(start, low, c, block, ok):
+    """`loop.prepare` for each ball of a block, the first of which is `low`."""
     S, radius, enough, past = block.state, block.radius, block.enough, block.past
     for s in range(len(c)):
         if c[s] != 1.0:
-            enter(start, c[s], S, block.scale, ok)
+            enter(start, low, c[s], S, block.scale, ok)
             limited(S, radius[s], enough[s], ok)
-    enter(start, 1.0, S, block.scale, ok)
+    enter(start, low, 1.0, S, block.scale, ok)
     limited(S, S[RADIUS], S[ENOUGH], ok)
     remembered(S, ok)
     for s in range(len(c)):
@@ -328,20 +328,20 @@ def restored(S, status):
                 S[row, i] = one[row]
 
 
-def keep(block, frame, frames, status):
-    """Writes a frame of each ball that has not stopped."""
+def keep(block, low, frame, frames, status):
+    """Writes a frame of each ball that has not stopped; low: the first ball."""
     S, B = block.state, block.body
     for i in range(len(status)):
         if status[i] == 0:
-            put(frames.momenta[i, frame], 0, scaled(block.scale[i], three_in(S, K, i)))
-            put(frames.verticals[i, frame], 0, three_in(S, G, i))
+            put(frames.momenta[low + i, frame], 0, scaled(block.scale[i], three_in(S, K, i)))
+            put(frames.verticals[low + i, frame], 0, three_in(S, G, i))
             if frames.follows:
-                put_four(frames.attitudes[i, frame], 0, four_in(B, 0, i))
-                frames.traces[i, frame, 0], frames.traces[i, frame, 1] = B[4, i], B[5, i]
+                put_four(frames.attitudes[low + i, frame], 0, four_in(B, 0, i))
+                frames.traces[low + i, frame, 0], frames.traces[low + i, frame, 1] = B[4, i], B[5, i]
 
 
-def march_block(block, stages, steps, frames, ends, ok):
-    """`loop.march` for a block of balls.
+def march_block(block, low, stages, steps, frames, ends, ok):
+    """`loop.march` for a block of balls, whose frames are from the ball `low` on.
 
     ok: one entry for each lane in use, a multiple of REGISTER, LANES at most.  The scale and the ends have one entry
     for each ball; lanes beyond these are idle copies.
@@ -377,7 +377,7 @@ def march_block(block, stages, steps, frames, ends, ok):
         if (step + 1) % period == 0:
             restored(S, status)
         if (step + 1) % steps.every == 0:
-            keep(block, (step + 1) // steps.every, frames, status)
+            keep(block, low, (step + 1) // steps.every, frames, status)
     for i in range(len(status)):
         if status[i] == 0:
             ends.taken[i] = steps.last
@@ -399,23 +399,19 @@ def march_blocks(
         high = min(low + width, n)
         ok = all_lanes[: registers(high - low)]
         block = Block(S, kept.radius, kept.enough, H, B, kept.scale[low:high])
-        some = Frames(
-            frames.momenta[low:high], frames.verticals[low:high], frames.attitudes[low:high], frames.traces[low:high],
-            frames.follows, frames.traced,
-        )  # fmt: skip
         outcome = Ends(ends.taken[low:high], ends.status[low:high], ends.reach[low:high])
         if steps.first == 0:
-            prepare_block(started(start, low, high), stages.c, block, ok)
+            prepare_block(start, low, stages.c, block, ok)
             if frames.follows:
                 for lane in range(len(ok)):
-                    i = min(lane, high - low - 1)
-                    put_four_in(B, 0, lane, four(some.attitudes[i, 0], 0))
-                    B[4, lane], B[5, lane], B[6, lane] = 0.0, 0.0, rho[low + i]
+                    i = min(low + lane, n - 1)
+                    put_four_in(B, 0, lane, four(frames.attitudes[i, 0], 0))
+                    B[4, lane], B[5, lane], B[6, lane] = 0.0, 0.0, rho[i]
         else:
             carry(kept.state, S, width)
             carry(kept.body, B, width)
             carry(kept.past, H, width)
-        march_block(block, stages, steps, some, outcome, ok)
+        march_block(block, low, stages, steps, frames, outcome, ok)
         for i in range(high - low):
             if outcome.status[i] != 0:
                 put(ended[low + i], 0, scaled(block.scale[i], three_in(S, K, i)))
@@ -425,11 +421,6 @@ def march_blocks(
         carry(H, kept.past, width)
         if frames.follows:
             carry(B, kept.body, width)
-
-
-def started(start, low, high):
-    """Some of the balls before a step."""
-    return Start(start.momentum[low:high], start.gamma[low:high], start.tensor[low:high], start.contact[low:high])
 
 
 def advance_blocks(
@@ -443,7 +434,7 @@ def advance_blocks(
     for low in range(0, n, LANES):
         high = min(low + LANES, n)
         ok = all_lanes[: registers(high - low)]
-        enter(started(start, low, high), 1.0, S, scale, ok)
+        enter(start, low, 1.0, S, scale[: high - low], ok)
         limited(S, S[RADIUS], S[ENOUGH], ok)
         for i in lanes(whole(ok)):
             put_in(P, A, i, (0.0, 0.0, 0.0))

@@ -335,7 +335,8 @@ def taken_in(crew, B, b, i, frames, balls, weights, asked):
     lane[WHICH], lane[NEXT], lane[ALLOWED], lane[WISH] = i, 1.0, asked.allowed[i], asked.first[i]
     lane[SETTLED], lane[SMOOTH] = ANYTHING, ANYTHING
     aimed(lane, frames.momenta.shape[1], asked.interval)
-    exponent = enter(S, B, b, i, balls, lane[STEP], weights, body, crew.states[b])
+    half, exponent = at.begun(body, balls.tensor[i], balls.contact[i], lane[STEP], crew.states[b])
+    enter(S, B, b, half, balls.radius[i], weights, body, crew.states[b])
     lane[UNIT] = 2.0 * S[at.LENGTH, b] / lane[STEP]
     begun(crew.E, B, b, three_in(S, at.TENSOR, b), asked.start[i])
     return exponent

@@ -495,11 +495,10 @@ def put_back(S, b, body):
 
 
 @out_of_line
-def enter(S, B, b, i, balls, h, weights, body, state):
-    """Puts the ball i, unscaled in `body`, into the column b of S; returns the exponent of K."""
-    half, exponent = begun(body, balls.tensor[i], balls.contact[i], h, state)
+def enter(S, B, b, half, radius, weights, body, state):
+    """Puts a ball into the column b of S, `begun` with the half step."""
     put_back(S, b, body)
-    S[LENGTH, b], S[RADIUS, b], S[CONTACT, b], S[RESTS, b] = half, balls.radius[i], state[loop.D], 0.0
+    S[LENGTH, b], S[RADIUS, b], S[CONTACT, b], S[RESTS, b] = half, radius, state[loop.D], 0.0
     put_in(S, TENSOR, b, three(state, loop.J))
     columns = weights.sums.shape[1]
     least = LAST + 1 - columns
@@ -515,7 +514,6 @@ def enter(S, B, b, i, balls, h, weights, body, state):
             S[FULL + 2 * c, j] = weights.sums[c, first - least] if one else 0.0
             S[FULL + 2 * c + 1, j] = weights.sums[c, lane - least] if two else 0.0
     resized(S, B, b, columns, half, body, state)
-    return exponent
 
 
 def resized(S, B, b, columns, half, body, state):
@@ -563,7 +561,8 @@ def march_lanes(B, frames, balls, ends, h, steps, weights, kept):
     for b in range(B):
         i = min(b, count - 1)  # lanes beyond the balls repeat the last
         placed(body, i, frames)
-        exponents[b] = enter(S, B, b, i, balls, h, weights, body, states[b])
+        half, exponents[b] = begun(body, balls.tensor[i], balls.contact[i], h, states[b])
+        enter(S, B, b, half, balls.radius[i], weights, body, states[b])
     if steps.first > 0:
         carry(kept, S, LANES * B)
         for b in range(B):

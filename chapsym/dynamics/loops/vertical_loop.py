@@ -8,6 +8,7 @@ constant on an orbit, and one Newton correction per step adapts it to the roundi
 from chapsym.generated import vertical_level, vertical_rotation, vertical_square
 
 from .integrals import turned
+from .records import Steps
 from .text import Matrix, Vector
 from .vectors import dot, put, put_four, three
 
@@ -27,19 +28,19 @@ def level_root(level, t, v, inertia):
     return False, v
 
 
-def march(state: Vector, I: Vector, k: float, first: int, count: int, every: int, verticals: Matrix, q: Vector):
-    """Takes `count` steps from step `first` on, k = h/2; stores every `every`-th γ, and the last rotation in q.
+def march(state: Vector, I: Vector, k: float, steps: Steps, verticals: Matrix, q: Vector):
+    """Takes steps, k = h/2; stores every `every`-th γ, and the last rotation in q.
 
     state (7): γ, its compensations, and v, which is computed before step 0.  Returns whether all steps converged.
     """
     inertia, v, y, root = three(I, 0), three(state, 0), three(state, 3), state[6]
-    if first == 0:
+    if steps.first == 0:
         level = vertical_square(*v, *inertia)
         settled, root = level_root(level, k, level / (I[0] * I[1] * I[2]), inertia)
         if not settled:
             return False
     p = 1.0, 0.0, 0.0, 0.0
-    for step in range(first + 1, first + count + 1):
+    for step in range(steps.first + 1, steps.last + 1):
         p = vertical_rotation(k, root * k * k, *v, *inertia)
         # The next root from the present γ, to shorten the chain of dependent operations: the level is an integral.
         f, slope = vertical_level(k, root, vertical_square(*v, *inertia), *inertia)
@@ -48,8 +49,8 @@ def march(state: Vector, I: Vector, k: float, first: int, count: int, every: int
             return False
         root -= correction
         v, y = turned(p, v, y)
-        if step % every == 0:
-            put(verticals[step // every], 0, v)
+        if step % steps.every == 0:
+            put(verticals[step // steps.every], 0, v)
     put(state, 0, v)
     put(state, 3, y)
     state[6] = root
