@@ -166,6 +166,11 @@ t_id5 branch_small_rotation_double(double, double, double, double, double, doubl
 #endif
 
 INLINE t_r3 vectors_three(r1 array, int64_t at) { return (t_r3){array.p[at], array.p[at + 1], array.p[at + 2]}; }
+INLINE t_r3 vectors_scaled(real s, t_r3 v) { return (t_r3){s * v.a0, s * v.a1, s * v.a2}; }
+INLINE void vectors_put(r1 array, int64_t at, t_r3 v) {
+    array.p[at] = v.a0; array.p[at + 1] = v.a1; array.p[at + 2] = v.a2;
+}
+
 INLINE t_r3 branch_moments(t_r3 J) { return (t_r3){J.a1 + J.a2, J.a0 + J.a2, J.a0 + J.a1}; }
 INLINE real vectors_largest(t_r3 v) { return max_r(max_r(R(fabs(v.a0)), R(fabs(v.a1))), R(fabs(v.a2))); }
 INLINE t_ib loop_scaling(t_r3 momentum, t_r3 tensor, real contact) {
@@ -177,7 +182,6 @@ INLINE t_ib loop_scaling(t_r3 momentum, t_r3 tensor, real contact) {
     return (t_ib){exponent, tiny};
 }
 
-INLINE t_r3 vectors_scaled(real s, t_r3 v) { return (t_r3){s * v.a0, s * v.a1, s * v.a2}; }
 INLINE t_r3 vectors_shifted(t_r3 v, int64_t exponent) {
     return (t_r3){R(ldexp(v.a0, (int)exponent)), R(ldexp(v.a1, (int)exponent)), R(ldexp(v.a2, (int)exponent))};
 }
@@ -185,10 +189,6 @@ INLINE t_r3 vectors_shifted(t_r3 v, int64_t exponent) {
 INLINE t_r3 loop_times(t_r3 v, int64_t exponent) {
     if (-126 <= exponent && exponent <= 127) { return vectors_scaled(R(ldexp(R(1.0), (int)exponent)), v); }
     return vectors_shifted(v, exponent);
-}
-
-INLINE void vectors_put(r1 array, int64_t at, t_r3 v) {
-    array.p[at] = v.a0; array.p[at + 1] = v.a1; array.p[at + 2] = v.a2;
 }
 
 INLINE int gibbs_is_heavy(t_r3 I, real D) { return R(32.0) * min_r(min_r(I.a0, I.a1), I.a2) < D; }
@@ -259,19 +259,14 @@ OUT_OF_LINE void integrals_remember(r1 state) {
 }
 
 OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 c, r1 state, r2 limits) {
-    ALIGNED real part_[3]; r1 part = {part_, 3};
+    ALIGNED real part_[3]; r1 part = {part_, 3}; real scale = R(1.0);
     for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
-        if (c.p[i] != R(1.0)) {
-            for (int64_t j = 0; j < 3; j++) { part.p[j] = c.p[i] * momentum.p[j]; }
-            loop_entered(part, g, tensor, contact, state); AT2(limits, 0, i) = state.p[25];
-            AT2(limits, 1, i) = state.p[26];
-        }
+        vectors_put(part, 0, vectors_scaled(c.p[i], vectors_three(momentum, 0)));
+        scale = loop_entered(part, g, tensor, contact, state); AT2(limits, 0, i) = state.p[25];
+        AT2(limits, 1, i) = state.p[26];
     }
-    real scale = loop_entered(momentum, g, tensor, contact, state); integrals_remember(state);
-    for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
-        if (c.p[i] == R(1.0)) { AT2(limits, 0, i) = state.p[25]; AT2(limits, 1, i) = state.p[26]; }
-    }
-    return scale;
+    if (c.n0 > 1) { scale = loop_entered(momentum, g, tensor, contact, state); }
+    integrals_remember(state); return scale;
 }
 
 INLINE t_r3 vectors_plus(t_r3 a, t_r3 b) { return (t_r3){a.a0 + b.a0, a.a1 + b.a1, a.a2 + b.a2}; }
@@ -947,24 +942,13 @@ INLINE void block_remembered(r2 S, w1 ok) {
 }
 
 INLINE void block_prepare_block(Start start, int64_t low, r1 c, Block block, w1 ok) {
-    r2 S = block.state, radius = block.radius, enough = block.enough, past = block.past;
+    r2 S = block.state;
     for (int64_t s = 0, end_s = c.n0; s < end_s; s++) {
-        if (c.p[s] != R(1.0)) {
-            block_enter(start, low, c.p[s], S, block.scale, ok);
-            block_limited(S, r2_row(radius, s), r2_row(enough, s), ok);
-        }
+        block_enter(start, low, c.p[s], S, block.scale, ok);
+        block_limited(S, r2_row(block.radius, s), r2_row(block.enough, s), ok);
     }
-    block_enter(start, low, R(1.0), S, block.scale, ok); block_limited(S, r2_row(S, 25), r2_row(S, 26), ok);
-    block_remembered(S, ok);
-    for (int64_t s = 0, end_s = c.n0; s < end_s; s++) {
-        INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-            AT2(radius, s, i) = c.p[s] == R(1.0) ? AT2(S, 25, i) : AT2(radius, s, i);
-            AT2(enough, s, i) = c.p[s] == R(1.0) ? AT2(S, 26, i) : AT2(enough, s, i);
-        }
-    }
-    for (int64_t row = 0, end_row = past.n0; row < end_row; row++) {
-        INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) { AT2(past, row, i) = R(0.0); }
-    }
+    if (c.n0 > 1) { block_enter(start, low, R(1.0), S, block.scale, ok); }
+    block_limited(S, r2_row(S, 25), r2_row(S, 26), ok); block_remembered(S, ok); r2_fill(block.past, R(0.0));
 }
 
 INLINE void block_carry(r2 numbers, r2 to, int64_t width) {
@@ -2040,14 +2024,10 @@ INLINE int64_t loop_n_march(Under ball, Steps stages, Track track, r2 T) {
                 AT2(track.verticals, frame, i) = g.p[i];
                 for (int64_t j = 0, end_j = n; j < end_j; j++) {
                     AT2(track.momenta, frame, n * i + j) = ball.scale * AT2(k, i, j);
+                    if (track.follows) { AT2(track.attitudes, frame, n * i + j) = AT2(ball.R, i, j); }
                 }
             }
             if (track.follows) {
-                for (int64_t i = 0, end_i = n; i < end_i; i++) {
-                    for (int64_t j = 0, end_j = n; j < end_j; j++) {
-                        AT2(track.attitudes, frame, n * i + j) = AT2(ball.R, i, j);
-                    }
-                }
                 for (int64_t i = 0, end_i = n - 1; i < end_i; i++) { AT2(track.traces, frame, i) = ball.spot.p[i]; }
             }
         }
@@ -4190,6 +4170,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "607e09737f6a573da3099ff693a70be4ac521b546a35cee4f1562b3e5d01cffa";
+const char loops_text[] = "d9417624f9ed07a31c69162dcc50d68a11973c069714c570a1de1eb7a8cfb0aa";
 #endif
 #endif

@@ -56,8 +56,8 @@ def test_a_batch_is_its_balls_to_the_bit(precision, made, n, order, rolls):
 def test_a_block_is_as_wide_as_its_balls_need(n, widths, monkeypatch):
     ball, K, g = long_steps(n)
     run, one_step, used = chapsym.trajectory(ball, K, g, 12), chapsym.step(ball, K, g), []
-    limited = block.limited  # it prepares every block
-    monkeypatch.setattr(block, "limited", lambda *of: used.append(len(of[-1])) or limited(*of))
+    enter = block.enter  # once for every block
+    monkeypatch.setattr(block, "enter", lambda *of: used.append(len(of[-1])) or enter(*of))
     monkeypatch.setattr(native, "loop", lambda function, dtype=None: function)
     plain = chapsym.trajectory(ball, K, g, 12)
     assert used == widths

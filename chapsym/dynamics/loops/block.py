@@ -39,7 +39,7 @@ FEW = 2
 
 
 class Block(NamedTuple):
-    """A block of balls as they move: `loop.Moving` with a lane for each ball, and the scale of each ball.
+    """A block of balls as they move: `records.Moving` with a lane for each ball, and the scale of each ball.
 
     state (ROWS, lanes); radius² and enough, (stages, lanes); past (3 places, lanes); body (7, lanes): the attitude, the
     contact point and the radius, used only if followed.
@@ -300,21 +300,15 @@ def remembered(S, ok):
 
 def prepare_block(start, low, c, block, ok):
     """`loop.prepare` for each ball of a block, the first of which is `low`."""
-    S, radius, enough, past = block.state, block.radius, block.enough, block.past
+    S = block.state
     for s in range(len(c)):
-        if c[s] != 1.0:
-            enter(start, low, c[s], S, block.scale, ok)
-            limited(S, radius[s], enough[s], ok)
-    enter(start, low, 1.0, S, block.scale, ok)
+        enter(start, low, c[s], S, block.scale, ok)
+        limited(S, block.radius[s], block.enough[s], ok)
+    if len(c) > 1:  # a single stage is the step
+        enter(start, low, 1.0, S, block.scale, ok)
     limited(S, S[RADIUS], S[ENOUGH], ok)
     remembered(S, ok)
-    for s in range(len(c)):
-        for i in lanes(whole(ok)):
-            radius[s, i] = S[RADIUS, i] if c[s] == 1.0 else radius[s, i]
-            enough[s, i] = S[ENOUGH, i] if c[s] == 1.0 else enough[s, i]
-    for row in range(len(past)):
-        for i in lanes(whole(ok)):
-            past[row, i] = 0.0
+    block.past[:] = 0.0
 
 
 @out_of_line

@@ -33,18 +33,14 @@ SINGLE = {"small_rotation": single_loop.widened, "follow_body": single_loop.foll
 @out_of_line
 def prepare(momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Vector, state: Vector, limits: Matrix):
     """Writes the state of a ball, and the limits for each stage c, (s,); returns `scale`, with 𝒦 = scale·k."""
-    part = np.empty(3, momentum.dtype)
+    part, scale = np.empty(3, momentum.dtype), 1.0
     for i in range(c.shape[0]):
-        if c[i] != 1.0:
-            for j in range(3):
-                part[j] = c[i] * momentum[j]
-            entered(part, g, tensor, contact, state)
-            limits[0, i], limits[1, i] = state[RADIUS], state[ENOUGH]
-    scale = entered(momentum, g, tensor, contact, state)
+        put(part, 0, scaled(c[i], three(momentum, 0)))
+        scale = entered(part, g, tensor, contact, state)
+        limits[0, i], limits[1, i] = state[RADIUS], state[ENOUGH]
+    if c.shape[0] > 1:  # a single stage is the step
+        scale = entered(momentum, g, tensor, contact, state)
     remember(state)
-    for i in range(c.shape[0]):
-        if c[i] == 1.0:
-            limits[0, i], limits[1, i] = state[RADIUS], state[ENOUGH]
     return scale
 
 

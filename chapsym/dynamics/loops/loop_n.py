@@ -305,10 +305,9 @@ def march(ball: Under, stages: Steps, track: Track, T: Matrix):
                 track.verticals[frame, i] = g[i]
                 for j in range(n):
                     track.momenta[frame, n * i + j] = ball.scale * k[i, j]
-            if track.follows:
-                for i in range(n):
-                    for j in range(n):
+                    if track.follows:
                         track.attitudes[frame, n * i + j] = ball.R[i, j]
+            if track.follows:
                 for i in range(n - 1):
                     track.traces[frame, i] = ball.spot[i]
     return stages.last
