@@ -142,7 +142,7 @@ class Printer:
         #: The returned type; the parameters whose elements it writes.
         self.returned: Any = None
         self.written: set[str] = set()
-        #: The parts of the records that have a name.
+        #: What a name has parts of, or is another name for.
         self.made: dict[str, Sequence[ast.expr]] = {}
         #: The called functions, each with its replacement in float32, or itself.
         self.calls: dict[Function, Function] = {}
@@ -521,11 +521,11 @@ class Printer:
         """Records that a name may have this kind, too."""
         self.names[name] = joined(self.names.get(name, kind), kind)
 
-    def writes(self, node: ast.expr) -> None:
+    def writes(self, node: ast.expr, seen: frozenset[str] = frozenset()) -> None:
         """Records that the function writes to the array of an expression, or to the arrays of a record."""
         name = base_name(node)
-        for part in self.made.get(name, ()):
-            self.writes(part)
+        for part in self.made.get(name, ()) if name not in seen else ():
+            self.writes(part, seen | {name})
         self.written |= {x for x in {name} & set(self.function.parameters) if isinstance(self.names[x], Array | Record)}
 
     def add(self, *texts: str) -> None:
@@ -662,6 +662,8 @@ class Printer:
                 of = self.expression(value)
                 if isinstance(value, ast.Call) and isinstance(of.kind, Record):
                     self.made[name] = value.args
+                elif isinstance(value, ast.Name | ast.Attribute | ast.Subscript):
+                    self.made[name] = [value]
                 if isinstance(of.kind, tuple) and name in self.listed:
                     if self.stored[name] > 1 or self.depth or set(of.kind) != {"r"}:
                         raise TypeError("a tuple with an element that a variable names is of floats, and assigned once")
