@@ -14,9 +14,7 @@ from setuptools.command.build_ext import build_ext
 from setuptools.command.sdist import sdist
 
 #: The bits are those of the text: no product is fused with a sum.  With -O2 lanes beyond the bound take twice as long.
-#: No vectors outside of loops: an attitude stored in parts and loaded as a vector would delay each step by 10 ns.
 FLAGS = ["-std=gnu11", "-O3", "-g0", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math"]
-FLAGS += ["-fno-tree-slp-vectorize"]
 LOOPS = Extension(
     "chapsym.dynamics.native.compiled",
     [*(f"generated/loops{part}.c" for part in ("", "_long", "_single")), "chapsym/dynamics/native/module.c"],
