@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+import chapsym.dynamics.native as native
 from chapsym.generated import angular_velocity
 from chapsym.numbers import NAMED
 
@@ -25,6 +26,9 @@ from .loops.loop import G, K
 from .loops.records import Moving, Steps, Track
 from .map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from .results import Bounds, Trajectory, finished
+
+#: The most steps of a call before which the state is not copied: a copy takes as long as some twenty steps.
+AT_ONCE = 100
 
 
 class UnderWay:
@@ -251,6 +255,8 @@ class Stepper(UnderWay):
         self._radius = float(rolling_radius(ball)) if traced else 0.0
         self._stages = double.staged(order, double.DOUBLE)
         self._march = double.DOUBLE.loop(loop.march)
+        #: Whether few steps are one call of compiled code, and need no copy of the state before them.
+        self._at_once = order == 2 and native.is_compiled()
         self._spin, self._spot = np.zeros(4), np.zeros(2)
         self._ends = self._frames(2)
         self._track = self._tracked(self._ends)
@@ -337,24 +343,37 @@ class Stepper(UnderWay):
         }  # fmt: skip
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
-        done, status, reach = 0, 0, 1.0
+        done, status, reach, taken = 0, 0, 1.0, self._taken
         try:
             while done < steps and not status:
-                before = None if self.order == 2 else [x.copy() for x in self._arrays()]
-                went, status, reach = self._march_on(done, min(double.CHUNK, steps - done), every, frames)
-                if status:
-                    status = self._stopped(status, before, partial(self._march_on, done, went, every, frames))
+                count = min(double.CHUNK, steps - done)
+                before = None if count <= AT_ONCE and self._at_once else [x.copy() for x in self._arrays()]
+                try:
+                    went, status, reach = self._march_on(taken, done, count, every, frames)
+                    if status:
+                        status = self._stopped(
+                            status, before, partial(self._march_on, taken, done, went, every, frames)
+                        )
+                except BaseException:  # an interrupt undoes the steps of this call of the loop
+                    if before is not None:
+                        self._reset(before)
+                        self._taken = taken + done
+                    raise
                 done += went
-                self._taken += went
+                self._taken = taken + done
         finally:
             if done < steps or frames is not self._ends:
                 self._show()
         return done, status, reach
 
-    def _march_on(self, first: int, count: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
+    def _march_on(
+        self, begun: int, first: int, count: int, every: int, frames: dict[str, Floats]
+    ) -> tuple[int, int, float]:
         steps = Steps(first, first + count, every)
         track = self._track if frames is self._ends else self._tracked(frames)
-        return self._march(self._moving, self._stages, steps, self._taken - first, self._scale, track)
+        # Set before the call: Python raises an interrupt right after it, when the steps are taken.
+        self._taken = begun + first + count
+        return self._march(self._moving, self._stages, steps, begun, self._scale, track)
 
     def _tracked(self, frames: dict[str, Floats]) -> Track:
         """The frames as the loop takes them."""
@@ -364,11 +383,14 @@ class Stepper(UnderWay):
         """Why a step was not taken; the state is reset to the one before it, which a composition has left."""
         state = self._moving.state
         why = double.explained(status, self._scale * state[K : K + 3], state[G : G + 3], self._J, self._D)
-        if before is not None:
-            for array, old in zip(self._arrays(), before, strict=True):
-                array[:] = old
+        if before is not None and self.order != 2:
+            self._reset(before)
             again()
         return why
+
+    def _reset(self, before: list[Floats]) -> None:
+        for array, old in zip(self._arrays(), before, strict=True):
+            array[:] = old
 
     def _arrays(self) -> list[Floats]:
         """The arrays that the loop changes."""

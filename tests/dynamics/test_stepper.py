@@ -59,7 +59,7 @@ def test_calls_that_are_long_are_the_same(monkeypatch):
 
 
 def test_an_interrupt_leaves_a_state_that_goes_on(monkeypatch):
-    monkeypatch.setattr(double, "CHUNK", 70)
+    monkeypatch.setattr(double, "CHUNK", 140)
     stepper = Stepper(BALL, K, GAMMA, **TRACED)
     march, calls = stepper._march, []
 
@@ -73,9 +73,9 @@ def test_an_interrupt_leaves_a_state_that_goes_on(monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         stepper.step(1200)
     whole = chapsym.trajectory(BALL, K, GAMMA, 1200, **TRACED)
-    assert stepper.taken == 140
-    assert same(stepper, whole, 140)
-    stepper.step(1060)
+    assert stepper.taken == 280
+    assert same(stepper, whole, 280)
+    stepper.step(920)
     assert same(stepper, whole, 1200)
 
 
@@ -304,3 +304,33 @@ def test_in_n_dimensions_input_without_an_answer_is_refused_and_the_state_stays(
         change(stepper)
     assert same(stepper, before)
     assert stepper.taken == 2
+
+
+N = BallN((1, 2, 4), 3), chapsym.skew(K), GAMMA
+FLOWS = {
+    "three": (Stepper, chapsym.trajectory, (BALL, K, GAMMA)), "n": (StepperN, trajectory_n, N),
+    "beyond the bound": (StepperN, trajectory_n, (N[0], 8 * N[1], GAMMA)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("order", "steps"), [(2, 1), (2, 300), (4, 1)])
+@pytest.mark.parametrize("flow", FLOWS)
+def test_an_interrupt_leaves_the_state_of_the_steps_that_are_counted(flow, order, steps, monkeypatch):
+    """Python raises it right after the compiled call in which it arrives."""
+    made, run, start = FLOWS[flow]
+    moving, real = made(*start, order=order), made._march_on if flow == "three" else made._march
+
+    def march(self, *arguments):
+        real(self, *arguments)
+        raise KeyboardInterrupt
+
+    moving.step(7)
+    monkeypatch.setattr(made, real.__name__, march)
+    with pytest.raises(KeyboardInterrupt):
+        moving.step(steps)
+    monkeypatch.undo()
+    assert moving.taken in (7, 7 + steps)
+    moving.step(2)
+    truth = run(*start, moving.taken, order=order)
+    assert (moving.gamma == truth.gamma[-1]).all()
+    assert (moving.momentum == truth.momentum[-1]).all()

@@ -298,8 +298,13 @@ class StepperN(UnderWay):
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         in_parts = self.order > 2 or not self._below
-        before = self._state, deepcopy(self._one) if in_parts else self._one
-        taken, status, reach = self._march(Steps(0, steps, every), frames)
+        moving = {name: getattr(self._one, name).copy() for name in ("k", "g", "past", "use", "R", "spot")}
+        before = self._state, self._one._replace(**moving)
+        try:
+            taken, status, reach = self._march(Steps(0, steps, every), frames)
+        except BaseException:  # an interrupt undoes the steps of this call
+            self._state, self._one = before
+            raise
         if status != Status.TAKEN and in_parts:  # some stages of the last step were taken
             self._state, self._one = before
             self._march(Steps(0, taken, every), frames)
