@@ -241,7 +241,7 @@ def certified_motion(
     return follow(start, _ascending(times), digits, limit=limit, progress=progress)
 
 
-def of_motion(run: Trajectory, limit: float = 600.0) -> Bounds:
+def of_motion(run: Trajectory, limit: float = 600.0, progress: Callable[[str], None] = lambda sentence: None) -> Bounds:
     """Bounds of the distance of the frames of a ball from the motion that starts at the numbers of frame 0.
 
     run: in float64, with a time step, in principal axes.  The enclosure has two digits more than the estimated error of
@@ -256,7 +256,7 @@ def of_motion(run: Trajectory, limit: float = 600.0) -> Bounds:
     digits = min(17, max(4, math.ceil(-math.log10(max(float(np.max(run.error)), 1e-17))) + 2))
     found = certified_motion(
         ExactBall(*run.ball.exact), [x / epsilon for x in K[0]], run.gamma[0], [epsilon * i for i in index], digits,
-        attitude=None if run.attitude is None else run.attitude[0], limit=limit,
+        attitude=None if run.attitude is None else run.attitude[0], limit=limit, progress=progress,
     )  # fmt: skip
     count, bits, scale = len(found.times), found.bits, fmpq(epsilon.numerator, epsilon.denominator)
     bounds: dict[str, Any] = {}

@@ -267,6 +267,19 @@ def test_roll_starts_in_space_with_an_attitude_and_a_position():
             chapsym.roll(ball, spatial, 0.01, 5, **wrong)
 
 
+def test_the_proof_of_a_motion_shows_progress_and_may_be_ended():
+    seen = []
+
+    def progress(done):
+        seen.append(done)
+        if len(seen) == 5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        chapsym.roll(Ball((1, 2, 4), 3, 0.1), (3, 2, 1), 1.0, 50, proved=True, progress=progress)
+    assert seen[-4:] == [50] * 4
+
+
 def test_a_ball_that_stops_keeps_its_position():
     with pytest.raises(StepNotTaken) as stopped:
         chapsym.roll(Ball((1, 2, 4), 3, 1.0), (0.66, -0.4, 0.94), 1.0, 9, gamma=GAMMA, map=True, contact=True,
