@@ -524,7 +524,8 @@ class Printer:
     def writes(self, node: ast.expr, seen: frozenset[str] = frozenset()) -> None:
         """Records that the function writes to the array of an expression, or to the arrays of a record."""
         name = base_name(node)
-        for part in self.made.get(name, ()) if name not in seen else ():
+        made = node.args if isinstance(node, ast.Call) else self.made.get(name, ())  # a record, there or before
+        for part in made if name not in seen else ():
             self.writes(part, seen | {name})
         self.written |= {x for x in {name} & set(self.function.parameters) if isinstance(self.names[x], Array | Record)}
 

@@ -168,7 +168,8 @@ def extrapolate(
     threads : int, optional
         The number of cores that a batch may use; 0, the default, for all.
     progress : callable, optional
-        Called with the steps done so far, of all balls together, whenever a ball or a block of eight is complete.
+        Called with the steps done so far, of all balls together, at the latest when a ball or a block of eight is
+        complete.
 
     Returns
     -------

@@ -300,12 +300,12 @@ def test_what_is_not_translated_names_its_function(body, tmp_path):
     [
         ("x = pose.v", "r1 r r1"), ("x = pose.v\n    x[0] = 1.0", "r1* r* r1"),
         ("x = pose\n    x.v[0] = 1.0", "r1* r* r1"), ("x = pose.v\n    y = x\n    y[0] = 1.0", "r1* r* r1"),
-        ("x = w\n    w = x\n    x[0] = 1.0", "r1 r r1*"),
+        ("x = w\n    w = x\n    x[0] = 1.0", "r1 r r1*"), ("put(Pair(w, 1.0))", "r1 r r1*"),
     ],
 )  # fmt: skip
 def test_what_is_written_under_another_name_is_written(body, takes, tmp_path):
     """Arrays that are written must not be read-only: the table says which."""
-    text = "class Pair(NamedTuple):\n    v: Vector\n    size: float\n\n"
+    text = "class Pair(NamedTuple):\n    v: Vector\n    size: float\n\ndef put(pair):\n    pair.v[0] = pair.size\n\n"
     found = translated(tmp_path, f"{text}def moved(pose: Pair, w: Vector):\n    {body}\n    return pose.size\n")
     assert f'{{"sample_moved", "{takes}", ' in found
 

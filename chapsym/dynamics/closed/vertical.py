@@ -103,7 +103,7 @@ def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     [0.599986, -0.004763, 0.799996]
     """
     shape, given = _flat(ball, height, gamma)
-    frames = _taken(given, 1, 1, rotation=True)
+    frames = _taken(given, Steps(0, 1, 1), lambda done: None, rotation=True)
     h, q = given[3], frames.attitude[:, 1]
     if not shape and frames.status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]))
@@ -164,7 +164,7 @@ def trajectory_vertical(
     callback(progress)
     every = min(every, steps + 1)
     shape, given = _flat(ball, height, gamma)
-    frames = _taken(given, steps, every, progress=progress)
+    frames = _taken(given, Steps(0, steps, every), progress)
     h, *ends = (in_shape(shape, x) for x in (given[3], frames.gamma, frames.taken, frames.status))
     return finished(VerticalTrajectory(ball, h, np.arange(steps // every + 1) * every, *ends), frames.reach)
 
@@ -177,57 +177,43 @@ def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, .
     return shape, [flat, J, D, np.broadcast_to(h, shape).reshape(-1).copy()]
 
 
-def _taken(
-    given: list[Floats],
-    steps: int,
-    every: int,
-    rotation: bool = False,
-    progress: Callable[[int], None] = lambda steps_done: None,
-) -> Frames:
+def _taken(given: list[Floats], steps: Steps, progress: Callable[[int], None], rotation: bool = False) -> Frames:
     """Steps of every ball, by the closed form if it holds; rotation: of one step, as the attitude of frame 1."""
     g, J, D, h = given
     precision, still = NAMED["double"], [1.0, 0.0, 0.0, 0.0] if rotation else None
     balls = Balls(h[:, np.newaxis] * g, g, J, D, np.zeros(len(D)))
-    frames = dispatch.begun(precision, balls, steps // every + 1, still)
-    march = native.loop(vertical_loop.march)
+    count, every = steps.last, steps.every
+    frames = dispatch.begun(precision, balls, count // every + 1, still)
     others: list[int] = []
     for i in range(len(D)):
-        here = after(steps * (i - len(others)), progress)
-        if D[i] != 0.0 or not _closed(march, given, i, steps, every, frames, here):
+        here = after(count * (i - len(others)), progress)
+        if D[i] != 0.0 or not _closed(given, i, steps, frames, here):
             others.append(i)
     if others:
         some = Balls(*(x[others] for x in vars(balls).values() if x is not None))
-        full = dispatch.begun(precision, some, steps // every + 1, still)
-        double.run(some, steps, every, full, 2, 1, after(steps * (len(D) - len(others)), progress))
+        full = dispatch.begun(precision, some, count // every + 1, still)
+        double.run(some, count, every, full, 2, 1, after(count * (len(D) - len(others)), progress))
         for name in ("gamma", "attitude", "taken", "status", "reach"):
             getattr(frames, name)[others] = getattr(full, name)
     return frames
 
 
-def _closed(
-    march: Callable[..., bool],
-    given: list[Floats],
-    i: int,
-    steps: int,
-    every: int,
-    frames: Frames,
-    progress: Callable[[int], None],
-) -> bool:
+def _closed(given: list[Floats], i: int, steps: Steps, frames: Frames, progress: Callable[[int], None]) -> bool:
     """Whether the closed form takes every step of the ball i, whose D is 0, into its frames.
 
     Lemma `small-branch`: if there is a radius, a root with |q| < q₀ is the root of the small-rotation branch.
     """
     g, J, _, h = (x[i] for x in given)
-    ball, q = np.empty(loop.ROWS), np.zeros(4)
+    ball, q, march = np.empty(loop.ROWS), np.zeros(4), native.loop(vertical_loop.march)
     loop.entered((float(h), 0.0, 0.0), g, J, 0.0, ball)
     k, inertia, state = ball[loop.K], ball[loop.I : loop.D], np.array([*g, 0.0, 0.0, 0.0, 0.0])
     if ball[loop.RADIUS] < 0.0:
         return False
-    for part in parts(Steps(0, steps, every), double.CHUNK):  # the run can be interrupted between two of them
+    for part in parts(steps, double.CHUNK):  # the run can be interrupted between two of them
         if not march(state, inertia, k, part, frames.gamma[i], q):
             return False
         progress(part.last)
-    frames.taken[i] = steps
+    frames.taken[i] = steps.last
     if frames.with_body:
         frames.attitude[i, 1] = q / np.sqrt(q @ q)
     return True

@@ -108,7 +108,8 @@ def untaken(n: int) -> records.Ends:
 
 def parts(steps: Steps, size: int) -> Iterator[Steps]:
     """The steps of a run in parts of `size`, between which it can be interrupted."""
-    for first in range(steps.first, steps.last, max(1, size)):
+    size = max(1, size)
+    for first in range(steps.first, steps.last, size):
         yield Steps(first, min(steps.last, first + size), steps.every)
 
 

@@ -304,13 +304,14 @@ class StepperN(UnderWay):
             taken, status, reach = self._march(Steps(0, steps, every), frames)
         except BaseException:  # an interrupt undoes the steps of this call
             self._state, self._one = before
+            self._show()
             raise
         if status != Status.TAKEN and in_parts:  # some stages of the last step were taken
             self._state, self._one = before
             self._march(Steps(0, taken, every), frames)
+        self._taken += taken
         if frames is not self._ends or taken < steps:
             self._show()
-        self._taken += taken
         return taken, status, reach
 
     def _march(self, steps: Steps, frames: dict[str, Floats]) -> tuple[int, int, float]:

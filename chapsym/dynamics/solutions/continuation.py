@@ -53,7 +53,7 @@ class Fold(Brief):
         The Euler parameters at the fold, q0 ≥ 0, shape (..., 4).
     settled : numpy.ndarray
         Whether Newton's iteration found a simple fold, shape (...).  Otherwise the Jacobian is singular near `reach`,
-        which is a lower bound, as at a crossing of branches; or the others are NaN, as float64 found no fold.
+        which is a lower bound, as at a crossing of branches; or `reach` and `rotation` are NaN.
 
     Examples
     --------
