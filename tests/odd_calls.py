@@ -3,6 +3,7 @@
 `python tests/odd_calls.py FIRST COUNT` prints what is wrong with calls, each by its seed.
 """
 
+import contextlib
 import inspect
 import os
 import random
@@ -213,16 +214,34 @@ def made(seed):
     return name, given
 
 
+def ordinary(name):
+    """The arguments of a call that has a result, of those without a default."""
+    parameters = inspect.signature(getattr(chapsym, name)).parameters.items()
+    needed = [key for key, one in parameters if one.default is inspect.Parameter.empty]
+    for seed in range(1_000):
+        rng = random.Random(seed)
+        with contextlib.suppress(*DOCUMENTED), warnings.catch_warnings(action="ignore"):
+            given = {key: ARGUMENTS.get((name, key), ARGUMENTS.get(key))(rng) for key in needed}
+            getattr(chapsym, name)(**given)
+            return given
+    raise LookupError(name)
+
+
 def wrong(seed):
     """What is wrong with a call, in words; None if nothing is."""
     try:
         name, given = made(seed)
     except BadInput:  # a ball that is none
         return None
+    return said_of(name, given)
+
+
+def said_of(name, given):
+    """What is wrong with the call of a function with these arguments, in words; None if nothing is."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            before = {key: value.copy() for key, value in given.items() if isinstance(value, np.ndarray)}
+            before = {key: value.copy() for key, value in given.items() if issubclass(type(value), np.ndarray)}
             found = getattr(chapsym, name)(**given)
             if name != "ExactBall":  # whose numbers may have more digits than Python writes
                 repr(found)

@@ -1,5 +1,6 @@
 """Public functions with odd arguments: no exception but those documented, no warning, no NaN in silence."""
 
+import inspect
 import itertools
 from fractions import Fraction
 
@@ -41,9 +42,9 @@ def test_what_is_wrong_with_a_call_is_seen(monkeypatch):
 
 
 class Unheard:
-    """What raises an error of its own where it is asked for an attribute."""
+    """What raises an error of its own where it is asked for an attribute, its class among them."""
 
-    def __getattr__(self, name):
+    def __getattribute__(self, name):
         raise RuntimeError(name)
 
 
@@ -54,11 +55,41 @@ class Whole(int):
         raise RuntimeError("no")
 
 
+class Name(str):
+    """A text that raises an error of its own where it is compared."""
+
+    def __eq__(self, other):
+        raise RuntimeError(other)
+
+    __hash__ = str.__hash__
+
+
+class Compared(int):
+    """A whole number that does."""
+
+    def __lt__(self, other):
+        raise RuntimeError(other)
+
+    __eq__ = __le__ = __gt__ = __ge__ = __lt__
+    __hash__ = int.__hash__
+
+
 class Unwilling:
     """What raises an error of its own where an array is made of it."""
 
     def __array__(self, dtype=None, copy=None):
         raise KeyError("unwilling")
+
+
+HOSTILE = [Unheard(), Name("double"), Compared(2), [Unheard(), 0, 1]]
+
+
+@pytest.mark.parametrize("name", odd_calls.NAMES)
+def test_what_raises_errors_of_its_own_is_refused_in_place_of_each_argument(name):
+    given = odd_calls.ordinary(name)
+    for key in inspect.signature(getattr(chapsym, name)).parameters:
+        for odd in HOSTILE:
+            assert not odd_calls.said_of(name, given | {key: odd}), key
 
 
 K, UP, BALL = (0.1, 0.2, 0.3), (0, 0, 1), chapsym.Ball((1, 2, 4), 3, 0.5)
@@ -146,7 +177,7 @@ def test_what_cannot_be_shown_is_refused_by_its_name(odd):
         with pytest.raises(BadInput, match=name):
             call()
     for level in (chapsym.Digits, chapsym.Enclosure):
-        with pytest.raises(ValueError, match="takes a whole number"):
+        with pytest.raises(ValueError, match="must be a whole number"):
             level(odd)
 
 
@@ -210,6 +241,10 @@ REFUSED = {
     "the certificate has no array": lambda: chapsym.certify(run()).digits(np.zeros(3)),
     "vector must be real numbers": lambda: chapsym.skew(deep(700)),
     "gamma is not on this curve": lambda: EQUATOR.argument((0.6, 0, 0.8)),
+    "there is no figure": lambda: chapsym.Result(run().to_xarray()).figure(np.zeros(3)),
+    "has no ball": lambda: chapsym.Result(run().to_xarray()).figure(ball=Unheard()),
+    "residual must be a row": lambda: chapsym.implicit_step(Unheard(), Unheard()),
+    "run must be a Trajectory": lambda: chapsym.reverse([1]),
     "dataset must be the dataset of a result": lambda: chapsym.Result(run()),
     "dataset must be the dataset of a result, with ball": lambda: chapsym.Result(Unheard()),
     "dataset of a result, with ball and": lambda: chapsym.Result(run().to_xarray().gamma),

@@ -15,7 +15,17 @@ from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, extrapolate, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
-from chapsym.dynamics.ball import Floats, batch, brief, callback, checked_before, numbers, unit_vertical
+from chapsym.dynamics.ball import (
+    Floats,
+    batch,
+    brief,
+    callback,
+    checked_before,
+    is_flag,
+    numbers,
+    one_of,
+    unit_vertical,
+)
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
@@ -67,14 +77,13 @@ class Request:
             raise BadInput("an accuracy is asked for one ball; a batch takes steps that you choose")
         for name in ("time", "accuracy"):
             object.__setattr__(self, name, _positive(getattr(self, name), name))
-        if not isinstance(self.of, str) or self.of not in NORMS:
-            raise BadInput(f'of must be "state" or "contact", not {brief(self.of)}')
+        object.__setattr__(self, "of", one_of(self.of, "of", *NORMS))
         if self.of == "contact" and self.ball.radius is None:
             raise BadInput("the contact point needs the radius: give the ball its mass and radius")
         object.__setattr__(self, "frames", whole_number(self.frames, "frames", 1, MOST_FRAMES))
         if self.accuracy < LEAST:
             raise BadInput(f"accuracy must be at least {LEAST:g}: the compositions' coefficients have 40 digits")
-        if isinstance(self.attitude, bool | np.bool_):
+        if is_flag(self.attitude):
             object.__setattr__(self, "attitude", bool(self.attitude))
         else:
             object.__setattr__(self, "attitude", initial_attitude(self.attitude, g[0]))

@@ -46,7 +46,9 @@ from chapsym.dynamics.ball import (
     callback,
     checked_before,
     exact_array,
+    is_flag,
     numbers,
+    one_of,
     over_states,
     unit_vertical,
 )
@@ -73,7 +75,7 @@ from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
 from chapsym.generated import contact_momentum
-from chapsym.numbers import Digits, Enclosure, Precision
+from chapsym.numbers import Digits, Enclosure, Precision, is_a
 
 HERE = (0.0, 0.0)
 #: Momenta in this range need no further checks.
@@ -212,6 +214,7 @@ def roll(
     True
     """
     callback(progress)
+    axes = one_of(axes, "axes", "body", "space")
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
     place = None if position is HERE else numbers(position, "position", 2)
     if place is not None and place.ndim > 1:
@@ -222,7 +225,7 @@ def roll(
     if flag(proved, "proved") and (ball.axes is not None or not ball.is_one or spin.ndim > 1 or vertical.ndim > 1):
         raise BadInput("proved=True takes one ball in principal axes, and all vectors in these")
     try:
-        if by_map and isinstance(precision, Digits | Enclosure) and ball.axes is None:
+        if by_map and is_a(precision, Digits, Enclosure) and ball.axes is None:
             turned_before = axes == "space" and not (gamma is None and isinstance(turned, bool))
             momentum, upwards = _exact_momentum(
                 ball, spin if turned_before else omega, vertical if gamma is None else gamma, time_step
@@ -255,9 +258,7 @@ def _start(
 ) -> tuple[Floats, Floats, bool | Floats]:
     """ω and γ in body axes, and the first attitude."""
     spin = numbers(omega, "omega", 3)
-    turned: bool | Floats = (
-        bool(attitude) if isinstance(attitude, bool | np.bool_) else numbers(attitude, "attitude", 4)
-    )
+    turned: bool | Floats = bool(attitude) if is_flag(attitude) else numbers(attitude, "attitude", 4)
     if gamma is not None or isinstance(turned, bool):
         vertical = unit_vertical((0.0, 0.0, 1.0) if gamma is None else gamma)
     else:
@@ -265,14 +266,12 @@ def _start(
         if not (length > 0).all() or (np.abs(turned) > 2.0).any():
             raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
         vertical = kernels.rotate(turned / length * _INVERSE, _UP)
-    if not isinstance(ball, Ball):
+    if not is_a(ball, Ball):
         raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
     if not (ball.is_one and spin.ndim == vertical.ndim == 1):
         batch(ball.principal, spin, vertical)  # so that an error names the arguments of this function
     if not isinstance(turned, bool):
         turned = initial_attitude(turned, vertical)
-    if not isinstance(axes, str) or axes not in ("body", "space"):
-        raise BadInput(f'axes must be "body" or "space", not {brief(axes)}')
     if axes == "space":
         to_space = attitude_with(vertical) if isinstance(turned, bool) else turned
         spin = kernels.rotate(to_space * _INVERSE, spin)
@@ -346,7 +345,7 @@ def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Float
 
 
 def _accuracy(given: float | None) -> float:
-    if given is None or (isinstance(given, float) and given >= FINEST and given < math.inf):
+    if given is None or (type(given) is float and given >= FINEST and given < math.inf):
         return DEFAULT if given is None else float(given)
     found = numbers(given, "accuracy")
     if found.ndim or not found >= FINEST:

@@ -1,12 +1,16 @@
 """The file of a certificate: one JSON object of strings and whole numbers, sealed by a digest."""
 
 import json
-from collections.abc import Callable
+import math
+import time
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from pathlib import Path
 
 from chapsym import checker
+from chapsym.dynamics.errors import LimitReached
 from chapsym.files import Data, write_text
+from chapsym.workers import Processes
 
 from .balls import NotProved, shortest
 
@@ -23,10 +27,38 @@ def stated(kind: str, **fields: object) -> Document:
     return {**document, "digest": checker.digest(document)}
 
 
-def accepted(document: Document) -> Document:
-    """The object itself; raises checker.Rejected if the checker does not accept it."""
-    checker.check(document)
+def accepted(document: Document, seconds: float = math.inf) -> Document:
+    """The object itself; raises checker.Rejected if the checker does not accept it.
+
+    Where the seconds are limited the checker has a process of its own, which ends with them: raises TimeoutError.
+    """
+    if seconds == math.inf:
+        checker.check(document)
+    else:
+        with Processes(1) as pool:
+            pool.submit(checker.check, document).result(max(seconds, 0.0))
     return document
+
+
+def first_accepted(
+    trials: Iterable[int], made: Callable[[int], Document], progress: Callable[[str], None], limit: float, less: str
+) -> Document:
+    """The first certificate that the checker accepts, of those made for it with each of these numbers of bits.
+
+    less: what a user can do who has no more time.  Raises checker.Rejected, as the last is, and LimitReached if none is
+    accepted after `limit` s.
+    """
+    until, why = time.monotonic() + limit, checker.Rejected("no bits are tried")
+    for bits in trials:
+        progress(f"the checker tries {bits} bits")
+        try:
+            return accepted(made(bits), until - time.monotonic())
+        except checker.Rejected as error:
+            why = error
+        except TimeoutError:
+            clause = f"the checker had not ended at the limit, with {bits} bits; raise it, or {less}"
+            raise LimitReached(clause) from None
+    raise why
 
 
 def widest(radii: list[Fraction], found: Callable[[Fraction], Document], progress: Callable[[str], None]) -> Document:

@@ -1,8 +1,7 @@
 """A certificate of a motion of the continuous ball: the frames of a certified motion, and their start."""
 
 import math
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
 from flint import arb
@@ -10,15 +9,13 @@ from flint import arb
 from chapsym import checker
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.enclosed_motion import CertifiedMotion
-from chapsym.dynamics.errors import LimitReached
 from chapsym.dynamics.flow.start import Principal, Start, balls
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.levels.start import fraction
 from chapsym.numbers.precisions import flint_bits
-from chapsym.workers import Processes
 
 from .balls import decade, shortest
-from .document import Document, stated
+from .document import Document, first_accepted, stated
 
 KIND = "motion"
 #: Bits of the first attempt beyond those of the digits, the increment for the next attempts, and the maximum.
@@ -49,31 +46,18 @@ def motion(
     `limit` s, and as `check_start`.
     """
     check_start(start, len(found.times))
-    digits, until = math.ceil(found.digits * math.log2(10)), time.monotonic() + limit
-    bits, why = digits + GUARD, ""
-    while bits <= digits + MOST:
-        progress(f"the checker tries {bits} bits")
-        data = document(start, found, bits)
-        try:
-            _check(data, until - time.monotonic())
-        except checker.Rejected as error:
-            bits, why = math.ceil(MORE * bits), str(error)
-        except TimeoutError:
-            raise LimitReached(
-                f"the checker had not ended at the limit, with {bits} bits; raise it, or {LESS}"
-            ) from None
-        else:
-            return data
-    raise BadInput(f"the checker proves too few digits of this motion, {LESS}: {why}")
+    digits = math.ceil(found.digits * math.log2(10))
+    bits = _increasing(digits + GUARD, digits + MOST)
+    try:
+        return first_accepted(bits, lambda n: document(start, found, n), progress, limit, LESS)
+    except checker.Rejected as error:
+        raise BadInput(f"the checker proves too few digits of this motion, {LESS}: {error}") from None
 
 
-def _check(data: Document, seconds: float) -> None:
-    """Judges a certificate; where the seconds are limited in a process that ends with them: raises TimeoutError."""
-    if seconds == math.inf:
-        checker.check(data)
-        return
-    with Processes(1) as pool:
-        pool.submit(checker.check, data).result(max(seconds, 0.0))
+def _increasing(bits: int, most: int) -> Iterator[int]:
+    while bits <= most:
+        yield bits
+        bits = math.ceil(MORE * bits)
 
 
 def document(start: Start, found: CertifiedMotion, bits: int) -> Document:

@@ -12,18 +12,20 @@ from chapsym.dynamics import BadInput, Trajectory
 from chapsym.numbers import Double
 
 from .balls import shortest
-from .document import Document, accepted, stated
+from .document import Document, first_accepted, stated
 
 KIND = "map-run"
 #: Bits for numbers of size 1 and their bounds, and bits per step, in the order of the trials.
 GUARD, A_STEP = 128, (2.5, 4.0, 8.0, 24.0)
 
 
-def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: None) -> Document:
+def map_run(
+    run: Trajectory, progress: Callable[[str], None] = lambda sentence: None, limit: float = math.inf
+) -> Document:
     """The certificate of a run of one ball in float64 with proved bounds, accepted by the checker.
 
     The checker follows the orbit from the start in integers and compares each frame with it.  Raises BadInput for other
-    runs, and if the checker proves too little.
+    runs, and if the checker proves too little, and LimitReached if it has accepted none after `limit` s.
     """
     if run.order != 2 or not isinstance(run.precision, Double) or run.status.shape or run.proved is None:
         raise BadInput("a certificate is of one ball, of the map itself, in double precision with proved=True")
@@ -34,15 +36,11 @@ def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: 
     if not 0 < steps <= most:
         raise BadInput(f"the checker follows 1 to {most} steps, and the last frame of the run is at {steps}")
     small = min(float(x) for x in (*run.ball.mass_tensor, run.ball.D, *bounds[:, 1:].ravel(), 1.0) if x > 0)
-    why = ""
-    for a_step in A_STEP:
-        bits = GUARD + math.ceil(a_step * steps - math.log2(small))
-        progress(f"the checker tries {bits} bits")
-        try:
-            return accepted(_document(run, bits))
-        except checker.Rejected as error:
-            why = why or str(error)
-    raise BadInput(f"the checker does not prove the bounds of this run: {why}")
+    bits = (GUARD + math.ceil(a_step * steps - math.log2(small)) for a_step in A_STEP)
+    try:
+        return first_accepted(bits, lambda n: _document(run, n), progress, limit, "take fewer steps")
+    except checker.Rejected as error:
+        raise BadInput(f"the checker does not prove the bounds of this run: {error}") from None
 
 
 def _document(run: Trajectory, bits: int) -> Document:

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Mapping
 from decimal import ROUND_CEILING, Context
 from fractions import Fraction
+from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any
@@ -186,6 +187,8 @@ def check(
     """
     import subprocess
 
+    if not files and manifest is None:
+        fail("name a FILE, or a --manifest (see chapsym certify check --help)", 2)
     # A process of its own, so that nothing loaded here has a part in it.
     command = [sys.executable, "-m", "chapsym.checker", *([f"--manifest={manifest}"] if manifest else []), "--"]
     command += map(str, files or [])
@@ -322,7 +325,7 @@ def run_of_map(
     run = trajectory(
         ball, *start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True
     )
-    _deliver(output, as_json, limit, search, run)
+    _deliver(output, as_json, limit, partial(search, limit=limit), run)
 
 
 def within(error: float | None, unit: str) -> str:

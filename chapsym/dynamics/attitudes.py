@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from chapsym import generated
 
 from . import kernels
-from .ball import SINGLE_TOLERANCE, UNIT_TOLERANCE, Floats, in_single, numbers, over_states
+from .ball import SINGLE_TOLERANCE, UNIT_TOLERANCE, Floats, in_single, is_flag, numbers, over_states
 from .errors import BadInput
 
 #: The largest accepted |R γ - e₃| for an attitude that is given together with γ.
@@ -56,7 +56,7 @@ def _least(x: float, y: float, z: float) -> tuple[float, ...]:
 
 def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     """The first attitude: the given one, checked against γ, or the least rotation."""
-    if isinstance(attitude, bool | np.bool_):
+    if is_flag(attitude):
         return attitude_with(gamma)
     given = numbers(attitude, "attitude", 4)
     over_states(given, "attitude", gamma.shape[:-1])

@@ -9,12 +9,13 @@ from decimal import Decimal
 from functools import cached_property
 from math import isfinite
 from numbers import Number
-from typing import Any, Self, TypeGuard
+from typing import TYPE_CHECKING, Any, Self, TypeGuard, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import brief
+from chapsym.numbers import brief, is_a, plain_text
+from chapsym.numbers import is_whole as is_whole
 from chapsym.rationals import decimals, exact_fraction
 
 from . import principal_axes
@@ -22,8 +23,14 @@ from .errors import BadInput
 from .principal_axes import Floats
 from .shown import Brief
 
+if TYPE_CHECKING:
+    from typing_extensions import TypeIs
+
 #: An array that is None unless it was asked for; whoever asked need not tell the type checker so, hence `Any`.
 Asked = Floats | Any
+
+#: A text, or one of few.
+Text = TypeVar("Text", bound=str)
 
 FLOAT64 = np.dtype(np.float64)
 #: The maximal number of axes that NumPy broadcasts.
@@ -83,7 +90,7 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
         raise _not_numbers(value, name)
     if array.ndim > MOST_AXES:
         raise BadInput(f"{name} has {array.ndim} axes, but at most {MOST_AXES} are taken")
-    if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, _NO_REALS) for x in array.flat):
+    if array.dtype.kind == "O" and not all(is_a(x, Number) and not is_a(x, *_NO_REALS) for x in array.flat):
         raise _not_numbers(value, name)
     try:
         with np.errstate(over="raise", under="ignore"):
@@ -128,11 +135,25 @@ def _not_numbers(value: object, name: str) -> BadInput:
     return BadInput(f"{name} must be real numbers, not {brief(value)}")
 
 
+def is_flag(value: object) -> TypeIs[bool | np.bool_]:
+    """Whether this is true or false."""
+    return type(value) in (bool, np.bool_)
+
+
 def flag(value: bool, name: str) -> bool:
     """True or false; raises BadInput for anything else."""
-    if not isinstance(value, bool | np.bool_):
+    if not is_flag(value):
         raise BadInput(f"{name} must be True or False, not {brief(value)}")
     return bool(value)
+
+
+def one_of(value: Text, name: str, *choices: Text) -> Text:
+    """One of these texts; raises BadInput for anything else."""
+    text = plain_text(value)
+    if text not in choices:
+        listed = '" or "'.join(choices)
+        raise BadInput(f'{name} must be "{listed}", not {brief(value)}')
+    return choices[choices.index(text)]
 
 
 def callback(progress: object) -> None:
@@ -410,7 +431,7 @@ class Ball(Parameters):
 
 def in_principal_axes(ball: Ball) -> Ball:
     """The ball; raises BadInput for any other object, and for a ball with axes."""
-    if not isinstance(ball, Ball):
+    if not is_a(ball, Ball):
         raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
     if ball.axes is not None:
         raise BadInput(
@@ -584,7 +605,7 @@ def in_shape(shape: tuple[int, ...], array: Asked) -> Asked:
 
 def is_followed(attitude: bool | ArrayLike) -> bool:
     """Whether the attitude is followed: True, or a first attitude."""
-    return not isinstance(attitude, bool | np.bool_) or bool(attitude)
+    return not is_flag(attitude) or bool(attitude)
 
 
 def _filled(shape: tuple[int, ...], value: Floats) -> Floats:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.numbers import Enclosure
-from chapsym.numbers.precisions import MOST_BITS, flint_bits
+from chapsym.numbers.precisions import MOST_BITS, flint_bits, is_a, plain_text
 from chapsym.rationals import decimals
 
 from .ball import Asked, Floats, batch, brief, callback, in_shape
@@ -95,7 +95,8 @@ class Certificate(Brief):
         >>> chapsym.certify(run).digits("gamma")[1, 2][:30]
         '0.9999382696996232792980030216'
         """
-        values = getattr(self, name) if isinstance(name, str) and name in NAMES else None
+        text = plain_text(name)
+        values = getattr(self, text) if text in NAMES else None
         if values is None:
             raise BadInput(f"the certificate has no {brief(name)}; it has {', '.join(self._names())}")
         return np.array([proved_digits(x) for x in values.flat], dtype=object).reshape(values.shape)
@@ -148,7 +149,7 @@ def certify(
     >>> bool(proved.momentum_error.max() < 1e-16), int(proved.selected)
     (True, 0)
     """
-    if not isinstance(trajectory, Trajectory):
+    if not is_a(trajectory, Trajectory):
         raise BadInput(f"certify takes what `trajectory` and `roll` return, not {type(trajectory).__name__}")
     if trajectory.order not in COMPOSITIONS:
         raise BadInput(f"certify takes orders {', '.join(map(str, COMPOSITIONS))}: this is no orbit of the map")

@@ -12,6 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
+from chapsym.numbers.precisions import is_whole
+
 from .ball import Floats, brief
 from .errors import BadInput
 
@@ -110,6 +112,6 @@ def substeps(order: int) -> Floats:
     >>> chapsym.substeps(4).round(6).tolist()
     [0.414491, 0.414491, -0.657963, 0.414491, 0.414491]
     """
-    if isinstance(order, bool) or not isinstance(order, int | np.integer) or order not in COMPOSITIONS:
+    if not is_whole(order) or int(order) not in COMPOSITIONS:
         raise BadInput(f"order must be one of {', '.join(map(str, COMPOSITIONS))}, not {brief(order)}")
     return COMPOSITIONS[int(order)].stages

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from chapsym.numbers.precisions import flint_bits
+from chapsym.numbers.precisions import flint_bits, is_a
 from chapsym.rationals import decimals
 
 from .ball import Ball, brief, callback, in_principal_axes
@@ -78,14 +78,14 @@ class ExactBall(Brief):
     radius: Fraction | None = None
 
     def __init__(self, mass_tensor: Any, D: Any, radius: Any = None) -> None:
-        from .flow.start import exactly, vector
+        from .flow.start import exactly, first_of, vector
 
         contact = exactly(D, "D")
         rho = None if radius is None else exactly(radius, "radius")
         moments: tuple[Fraction, ...] | tuple[tuple[Fraction, ...], ...]
-        listed = isinstance(mass_tensor, Sequence) or (isinstance(mass_tensor, np.ndarray) and mass_tensor.ndim)
-        if listed and len(mass_tensor) == 3 and all(isinstance(x, list | tuple | np.ndarray) for x in mass_tensor):
-            moments = check_tensor([vector(row, "mass_tensor") for row in mass_tensor], contact)
+        rows = first_of(mass_tensor, 4) if is_a(mass_tensor, Sequence, np.ndarray) else []
+        if len(rows) == 3 and all(is_a(x, list, tuple, np.ndarray) for x in rows):
+            moments = check_tensor([vector(row, "mass_tensor") for row in rows], contact)
         else:
             moments = vector(mass_tensor, "mass_tensor")
             check_body(moments, contact)
@@ -275,7 +275,7 @@ def of_motion(run: Trajectory, limit: float = 600.0, progress: Callable[[str], N
 
 
 def _exact_ball(ball: Ball | ExactBall) -> ExactBall:
-    if isinstance(ball, ExactBall):
+    if is_a(ball, ExactBall):
         return ball
     one = in_principal_axes(ball)
     if one.mass_tensor.ndim != 1 or one.D.ndim or (one.radius is not None and one.radius.ndim):
@@ -298,10 +298,10 @@ def _check_up(attitude: Sequence[Fraction], gamma: Sequence[Fraction]) -> None:
 def _ascending(times: object) -> tuple[Fraction, ...]:
     from .flow.start import exactly, vector
 
-    if isinstance(times, str) or not isinstance(times, Iterable) or getattr(times, "ndim", 1) == 0:
+    if is_a(times, str) or not is_a(times, Iterable) or getattr(times, "ndim", 1) == 0:
         found: tuple[Fraction, ...] = (exactly(times, "times"),)
     else:
-        found = () if isinstance(times, bytes | Mapping | Set) else vector(times, "times", MOST_TIMES, exact=False)
+        found = () if is_a(times, bytes, Mapping, Set) else vector(times, "times", MOST_TIMES, exact=False)
     if not found or found[0] < 0 or any(x >= y for x, y in pairwise(found)):
         raise BadInput("times must be one or more numbers of seconds from 0 on, each later than the one before")
     return found

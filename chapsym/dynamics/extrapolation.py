@@ -25,7 +25,7 @@ import chapsym.dynamics.native as native
 from chapsym.numbers import Double, DoubleDouble, Pair, Precision
 
 from .attitudes import first_attitudes
-from .ball import Asked, Ball, Floats, batch, callback, in_shape, is_followed, numbers, unit_vertical
+from .ball import Asked, Ball, Floats, batch, callback, in_shape, is_flag, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double_double
 from .levels.dispatch import begun, precision_of
@@ -212,7 +212,7 @@ def extrapolate(
     radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1).copy() if contact else D
     first = first_attitudes(attitude, g, shape) if follows else None
     balls, count = Balls(K, g, J, D, radius), steps // kept + 1
-    frames = begun(level, balls, count, first, isinstance(attitude, bool | np.bool_))
+    frames = begun(level, balls, count, first, is_flag(attitude))
     if of_pairs:
         pair = Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
         doubt = double_double.run_long(balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress)

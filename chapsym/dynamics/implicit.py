@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import Double, Enclosure, Precision, Single
+from chapsym.numbers import Double, Enclosure, Precision, Single, is_a
 
 from .ball import brief, common_shape, numbers
 from .errors import BadInput
@@ -317,12 +317,12 @@ def _values(function: Function, arrays: Sequence[np.ndarray], count: int) -> np.
 
 def _is_row(row: object) -> bool:
     """Whether this is a function, its groups of arguments with their sizes, and the shape of its result."""
-    if not (isinstance(row, tuple) and len(row) == 3 and callable(row[0])):
+    if not (is_a(row, tuple) and len(row) == 3 and callable(row[0])):
         return False
     groups, shape = row[1:]
-    if not (isinstance(groups, tuple) and groups and isinstance(shape, tuple)):
+    if not (is_a(groups, tuple) and groups and is_a(shape, tuple)):
         return False
-    if not all(isinstance(one, tuple) and len(one) == 2 and isinstance(one[0], str) for one in groups):
+    if not all(is_a(one, tuple) and len(one) == 2 and is_a(one[0], str) for one in groups):
         return False
     counted = all(type(count) is int and count > 0 for count in (*(size for _, size in groups), *shape))
     return counted and len({name for name, _ in groups}) == len(groups)

@@ -16,7 +16,7 @@ from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision
 from chapsym.numbers.precisions import is_whole
 
 from .attitudes import first_attitudes
-from .ball import Ball, Floats, brief, callback, flag, in_shape, is_followed, numbers
+from .ball import Ball, Floats, brief, callback, flag, in_shape, is_flag, is_followed, numbers
 from .coefficients import substeps
 from .errors import BadInput, LimitReached
 from .levels import dispatch
@@ -234,7 +234,7 @@ def trajectory(
     if contact:
         balls = replace(balls, radius=np.broadcast_to(rolling_radius(ball), shape).reshape(-1))
     first = first_attitudes(attitude, g, shape) if with_body else None
-    frame = dispatch.begun(precision, balls, steps // every + 1, first, isinstance(attitude, bool | np.bool_))
+    frame = dispatch.begun(precision, balls, steps // every + 1, first, is_flag(attitude))
     bounds = None
     if flag(proved, "proved"):
         dispatch.provable(precision)
@@ -359,16 +359,17 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
     """A count from `least` to `most`, or, without `most`, cut at 2^62; raises BadInput for anything else."""
     if type(value) is int and least <= value < MOST_STEPS and (most is None or value <= most):
         return value
-    if not is_whole(value) or value < least or (most is not None and value > most):
-        bounded = most is not None and (most < MOST_STEPS or (is_whole(value) and value > most))
+    found = int(value) if is_whole(value) else None
+    if found is None or found < least or (most is not None and found > most):
+        bounded = most is not None and (most < MOST_STEPS or (found is not None and found > most))
         clause = f"to {most}" if bounded else "on"
         raise BadInput(f"{name} must be a whole number from {least} {clause}, not {brief(value)}")
-    return min(int(value), MOST_STEPS)
+    return min(found, MOST_STEPS)
 
 
 def time_limit(value: float) -> float:
     """A limit in seconds; raises BadInput for anything but a positive number."""
-    found = value if is_whole(value) or isinstance(value, float) else numbers(value, "limit")
+    found = int(value) if is_whole(value) else value if type(value) is float else numbers(value, "limit")
     if np.ndim(found) or not found > 0:
         raise BadInput(f"limit must be a positive number of seconds, not {brief(value)}")
     return float(min(found, MOST_STEPS))

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import NAMED, Double, Pair, Precision, Single, named
+from chapsym.numbers import NAMED, Double, Pair, Precision, Single, is_a, named
 from chapsym.numbers.pairs import add
 
 from . import kernels, labelled, principal_axes
 from .attitudes import initial_attitude
-from .ball import Asked, Ball, Floats, batch, in_shape, numbers, unit_vertical
+from .ball import Asked, Ball, Floats, batch, in_shape, is_flag, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
 from .n import so_n
@@ -56,7 +56,7 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
     vectors = {name: array.reshape(*shape, 3) for name, array in zip(vectors, flat, strict=False)}
     found = {name: ball.to_principal(vector) for name, vector in vectors.items()}
     attitude = given.get("attitude", False)
-    if not isinstance(attitude, bool | np.bool_) or attitude or given.get("contact"):
+    if not is_flag(attitude) or attitude or given.get("contact"):
         start = initial_attitude(attitude, vectors["gamma"])
         found["attitude"] = principal_axes.attitude_to_principal(ball.axes, start)
     return {"ball": ball.principal, **found}
@@ -98,7 +98,7 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
     @wraps(function)
     def taken(*args: P.args, **kwargs: P.kwargs) -> R:
         ball: Any = args[0] if args else kwargs.get("ball")
-        if not isinstance(ball, Ball) or ball.axes is None:
+        if not is_a(ball, Ball) or ball.axes is None:
             return function(*args, **kwargs)
         call = signature(function).bind(*args, **kwargs)
         call.apply_defaults()

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.numbers import Digits, DoubleDouble, Enclosure
+from chapsym.numbers import Digits, DoubleDouble, Enclosure, is_a
 
 from .ball import Ball, Floats
 from .errors import BadInput
@@ -150,8 +150,8 @@ def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
     >>> bool(chapsym.retrace_error(run, chapsym.reverse(run)).max() < 1e-14)
     True
     """
-    if not isinstance(run, Trajectory) or not isinstance(back, Trajectory) or run.gamma.shape != back.gamma.shape:
-        raise BadInput("retrace_error compares a trajectory with its way back, of equal shape: give it reverse(run)")
+    if not is_a(run, Trajectory) or not is_a(back, Trajectory) or run.gamma.shape != back.gamma.shape:
+        raise BadInput("run and back must be a Trajectory and its way back, of equal shape: back = reverse(run)")
 
     def apart(there: Floats, here: Floats) -> Floats:
         """The largest difference in each frame, of vectors or matrices."""
@@ -168,8 +168,8 @@ def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
 
 def _frames(run: Trajectory) -> tuple[int, int]:
     """The number of steps from the first frame to the last, and from one frame to the next."""
-    if not isinstance(run, Trajectory):
-        raise BadInput(f"reverse takes a Trajectory, not {type(run).__name__}; of a state, reverse the momentum")
+    if not is_a(run, Trajectory):
+        raise BadInput(f"run must be a Trajectory, not {type(run).__name__}; of a state, reverse the momentum")
     if isinstance(run.precision, DoubleDouble | Digits | Enclosure):
         raise BadInput("reverse goes back in float32 or float64 only: a run starts from floats, not from finer numbers")
     if len(run.index) < 2:

@@ -256,7 +256,7 @@ class Stepper(UnderWay):
         self._stages = double.staged(order, double.DOUBLE)
         self._march = double.DOUBLE.loop(loop.march)
         #: Whether few steps are one call of compiled code, and need no copy of the state before them.
-        self._at_once = order == 2 and native.is_compiled()
+        self._at_once = len(self._stages.c) == 1 and native.is_compiled()
         self._spin, self._spot = np.zeros(4), np.zeros(2)
         self._ends = self._frames(2)
         self._track = self._tracked(self._ends)

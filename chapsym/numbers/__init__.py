@@ -11,11 +11,14 @@ from .precisions import (
     Single,
     brief,
     in_words,
+    is_a,
+    is_whole,
     named,
     own_name,
+    plain_text,
 )
 
 __all__ = [
     "NAMED", "Digits", "Double", "DoubleDouble", "Enclosure", "Pair", "Precision", "Single",
-    "brief", "in_words", "named", "own_name",
+    "brief", "in_words", "is_a", "is_whole", "named", "own_name", "plain_text",
 ]  # fmt: skip

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
 from threading import RLock
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -22,6 +22,9 @@ from .pair import Pair
 if TYPE_CHECKING:
     from flint import arb
     from mpmath import MPContext, mpf
+    from typing_extensions import TypeIs
+
+T = TypeVar("T")
 
 #: Significant digits of a double-double number in text: 2^-106 is 1.2e-32.
 WRITTEN = 32
@@ -113,19 +116,29 @@ def brief(value: object) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+def is_a(value: object, *kinds: type[T]) -> "TypeIs[T]":
+    """Whether a value is of one of these types: `isinstance` asks the object, too, which may raise anything."""
+    return issubclass(type(value), kinds)
+
+
+def plain_text(value: object) -> str | None:
+    """The characters of a text, whose class may have an equality of its own; None of anything else."""
+    return str.__str__(value) if is_a(value, str) else None
+
+
 def is_whole(value: object) -> bool:
     """Whether a value is a whole number of Python or NumPy."""
-    own = isinstance(value, int) and type(value).__int__ is not int.__int__  # which may raise anything
-    return isinstance(value, int | np.integer) and not isinstance(value, bool | np.timedelta64) and not own
+    own = is_a(value, int) and type(value).__int__ is not int.__int__  # which may raise anything
+    return is_a(value, int, np.integer) and not is_a(value, bool, np.timedelta64) and not own
 
 
 def _whole(precision: object, name: str, least: int, most: int) -> None:
     """Converts the count of a precision, and its guard, to integers of Python; raises ValueError for others."""
     kind = type(precision).__name__
-    for field, what, lowest in ((name, f"{kind}(n) takes", least), ("guard", f"guard of {kind} must be", 0)):
+    for field, lowest in ((name, least), ("guard", 0)):
         given = getattr(precision, field)
-        if not is_whole(given) or not lowest <= given <= most:
-            raise ValueError(f"{what} a whole number from {lowest} to {most}, not {brief(given)}")
+        if not is_whole(given) or not lowest <= int(given) <= most:
+            raise ValueError(f"{field} of {kind} must be a whole number from {lowest} to {most}, not {brief(given)}")
         object.__setattr__(precision, field, int(given))
 
 
@@ -305,9 +318,10 @@ OTHERS = {"float32": "single", "float64": "double", "quad": "double-double"}
 
 def own_name(name: object) -> Any:
     """The name of a precision for another name of it, or NumPy's type; anything else unchanged."""
-    if isinstance(name, type | np.dtype) and name in (np.float32, np.float64):
+    if is_a(name, type, np.dtype) and name in (np.float32, np.float64):
         name = np.dtype(name).name
-    return OTHERS.get(name, name) if isinstance(name, str) else name
+    text = plain_text(name)
+    return name if text is None else OTHERS.get(text, text)
 
 
 def in_words(identifier: str) -> str:
@@ -317,10 +331,10 @@ def in_words(identifier: str) -> str:
 
 def named(precision: "str | Precision") -> Precision:
     """The precision with this name; raises ValueError, one sentence, for anything else."""
-    if isinstance(precision, Precision):
+    if is_a(precision, Precision):
         return precision
     precision = own_name(precision)
-    if isinstance(precision, str) and precision in NAMED:
+    if type(precision) is str and precision in NAMED:
         return NAMED[precision]
     clause = '"single", "double", "double-double", chapsym.Digits(n) or chapsym.Enclosure(bits)'
     raise ValueError(f"precision must be {clause}, not {brief(precision)}")

@@ -14,7 +14,7 @@ import numpy as np
 
 from chapsym import __version__
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.ball import brief, callback
+from chapsym.dynamics.ball import brief, callback, is_a
 from chapsym.dynamics.labelled import frame
 from chapsym.dynamics.outputs import BOUND, LOW
 from chapsym.scene import Scene, SceneError, checked, load
@@ -85,7 +85,7 @@ class Result:
         """A figure of all balls or of one (name or index), by default the most informative one; raises BadInput."""
         reasons = self.figures()
         telling = next((one for one, reason in reasons.items() if reason is None), next(iter(reasons)))
-        return figures.draw(self.dataset, name or telling, ball)
+        return figures.draw(self.dataset, telling if name is None else name, ball)
 
     def show(self, ball: str | int | None = None) -> None:
         """Displays all possible figures, in a notebook below the cell, elsewhere in a folder, which is opened.
@@ -236,9 +236,9 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
     """
     if progress is not None:
         callback(progress)
-    if isinstance(scene, Mapping):
+    if is_a(scene, Mapping):
         scene = checked(dict(scene))
-    elif not isinstance(scene, Scene):
+    elif not is_a(scene, Scene):
         scene = load(_path(scene, "scene must be a .toml file or a dictionary"))
     plan = plan_of(scene)
     return Result(run_in_memory(plan) if progress is None else run_in_memory(plan, progress))
@@ -275,7 +275,7 @@ def open_result(path: str | Path) -> Result:
 
 
 def _path(given: Any, must: str) -> Path:
-    if not isinstance(given, str | os.PathLike) or isinstance(os.fspath(given), bytes):
+    if not (is_a(given, str) or is_a(given, os.PathLike)) or is_a(os.fspath(given), bytes):
         raise SceneError(f"{must}, not {brief(given)}")
     return Path(given)
 

@@ -14,6 +14,7 @@ import chapsym
 from chapsym import checker
 from chapsym.certificates import run as certificates
 from chapsym.dynamics import BadInput
+from chapsym.dynamics.errors import LimitReached
 
 BODY, START = chapsym.Ball((0.1, 0.5, 1.6), 0.7), ((0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7))
 
@@ -33,6 +34,13 @@ def test_a_run_is_judged(found):
     assert [frame["step"] for frame in found["frames"]] == [10, 20]
     assert float(verdict.numbers["gamma after step 20, off by at most"]) < 1e-15
     assert "at 2 steps of the map up to step 20" in verdict.statement
+
+
+def test_the_process_of_the_checker_ends_at_the_limit():
+    said = []
+    with pytest.raises(LimitReached, match="had not ended at the limit, with 236 bits; raise it, or take fewer steps"):
+        certificates.map_run(made(20, 10), said.append, limit=1e-9)
+    assert said == ["the checker tries 236 bits"]
 
 
 @pytest.mark.parametrize("part", ["momentum", "gamma"])
@@ -102,6 +110,7 @@ def test_the_command_makes_one_of_a_scene(tmp_path):
     assert "Proved: The ball with J" in done.stdout
     assert checker.check(json.loads(file.read_text())).kind == "map-run"
     path.write_text(f"{BALL}time_step = 0.01\nsteps = 30\n")
+    assert "name a FILE, or a --manifest" in refused_command("certify", "check")
     assert "is of the motion of the ball: add map = true" in refused_command("certify", "run", path)
     assert "is named twice: choose another name" in refused_command("certify", "run", path, "-o", path)
     for link, target in (("a", "b"), ("b", "a")):  # a circle, which is no file that is read

@@ -193,6 +193,14 @@ def test_each_of_many_frames_in_one_step_shows_progress_and_may_end_the_search()
     assert len(said) >= 60 > found.steps
 
 
+def test_a_correction_of_a_step_shows_progress_and_may_end_the_search():
+    """Of many digits one takes seconds: it reports at each product of matrices, of which it has two."""
+    said = []
+    found = follow(started(*ORDINARY), [F(1, 100)], 300, progress=said.append)
+    assert found.steps == 1
+    assert len(said) > 30
+
+
 def test_what_is_proved_is_given_where_the_time_is_up(monkeypatch):
     clock = iter(range(100))
     monkeypatch.setattr(enclosed_motion.clock, "monotonic", lambda: next(clock))

@@ -240,7 +240,7 @@ def test_the_solutions_of_neighbours_have_twice_as_many_bits_once_they_are_mende
         path = Path(400, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, ATTITUDE)), None)
         floats, length = path._series(F(1, 4), 1.0)
         p, w, _ = path._mended(floats, tuple(number(length) * x for x in path.k), path.body)
-        one, left = paths.Neighbours(floats, path.body), []
+        one, left = paths.Neighbours(floats, path.body, path.tick), []
         for _ in range(3):
             left.append(unlike_inverse(one))
             one.mend(p, w, 200)
@@ -255,5 +255,5 @@ def test_the_solutions_of_neighbours_have_twice_as_many_bits_once_they_are_mende
 
 def unlike_inverse(one):
     """How far ΦΨ is from 1 on [0, 1]."""
-    rows = paths._product(one.phi, one.psi)
+    rows = one._product(one.phi, one.psi)
     return upper([(x - (i == j))(deviation.UNIT) for i, row in enumerate(rows) for j, x in enumerate(row)])

@@ -152,7 +152,7 @@ def test_what_rounding_does_to_an_unstable_rotation_is_no_other_branch(order):
 def test_what_cannot_be_reversed():
     with pytest.raises(BadInput, match="no frame besides its first"):
         chapsym.reverse(rolled(2, steps=0))
-    with pytest.raises(BadInput, match="takes a Trajectory, not Step"):
+    with pytest.raises(BadInput, match="run must be a Trajectory, not Step"):
         chapsym.reverse(chapsym.step(BALL, 0.1 * K, GAMMA))
     heavy, far = Ball((1, 2, 4), 3), np.array([4.32, -2.16, 3.24])
     with pytest.raises(BadInput, match="stopped early"):

@@ -172,10 +172,10 @@ def test_a_body_and_a_state_are_checked_at_any_size():
         exact_step(J, D, K, nearly, precision)
 
 
-@pytest.mark.parametrize(("make", "least"), [(Digits, 1), (Enclosure, 2)])
+@pytest.mark.parametrize(("make", "field", "least"), [(Digits, "count", 1), (Enclosure, "bits", 2)])
 @pytest.mark.parametrize("value", [0, 10**9, -3, 2.5, True, "x", None], ids=repr)
-def test_a_precision_takes_a_whole_number_of_digits_that_memory_holds(make, least, value):
-    with pytest.raises(ValueError, match=rf"{make.__name__}\(n\) takes a whole number from {least} to"):
+def test_a_precision_takes_a_whole_number_of_digits_that_memory_holds(make, field, least, value):
+    with pytest.raises(ValueError, match=rf"{field} of {make.__name__} must be a whole number from {least} to"):
         make(value)
     if value not in (0, 10**9):
         with pytest.raises(ValueError, match=f"guard of {make.__name__} must be a whole number from 0"):

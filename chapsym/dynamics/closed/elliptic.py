@@ -8,6 +8,8 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from chapsym.numbers import is_a
+
 from ..ball import Ball, Floats, common_shape, in_principal_axes, numbers, unit_vertical
 from ..errors import BadInput
 from ..shown import Brief
@@ -362,7 +364,7 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     >>> chapsym.increment(curve, [0.1, 100.0], 0.0).round(8).tolist()
     [-0.00687438, nan]
     """
-    if not isinstance(curve, Curve):
+    if not is_a(curve, Curve):
         raise BadInput(f"curve must be a chapsym.Curve, not {type(curve).__name__}")
     h, start = numbers(height, "height"), numbers(u, "u")
     shape = common_shape([h.shape, start.shape], "height and u")

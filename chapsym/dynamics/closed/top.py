@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.generated import curve_increment, gibbs_newton, precession_parts, turn
-from chapsym.numbers import Enclosure
+from chapsym.numbers import Enclosure, is_a
 
 from .. import kernels
 from ..attitudes import first_attitudes
@@ -623,7 +623,7 @@ class ExactTop(Brief):
         >>> top.restore(run).order
         0
         """
-        momentum = run.momentum[0] if isinstance(run, Trajectory) and run.momentum.ndim == 2 else None
+        momentum = run.momentum[0] if is_a(run, Trajectory) and run.momentum.ndim == 2 else None
         if momentum is None or run.ball is not self.ball or not (momentum == self.momentum).all() or run.order != 2:
             raise BadInput(
                 "this is no trajectory of the exact top: run `trajectory(top.ball, top.momentum, gamma, ...)`"

@@ -33,11 +33,14 @@ Rows = Sequence[Row]
 
 
 class Neighbours:
-    """Φ and Ψ of a step, exact polynomials; call its methods at the precision of the gained bits."""
+    """Φ and Ψ of a step, exact polynomials; call its methods at the precision of the gained bits.
 
-    def __init__(self, series: Series, body: Body) -> None:
+    tick: called within these, as that of a `Path`.
+    """
+
+    def __init__(self, series: Series, body: Body, tick: Callable[[], None]) -> None:
         back = linear(-np.transpose(series.A, (0, 2, 1)), np.zeros((len(series.A) - 1, 3, 3)), np.eye(3))
-        self.body, self.phi, self.psi = body, _rows(series.Phi), _rows(np.transpose(back, (0, 2, 1)))
+        self.tick, self.body, self.phi, self.psi = tick, body, _rows(series.Phi), _rows(np.transpose(back, (0, 2, 1)))
 
     def mend(self, p: Polynomials, w: Polynomials, terms: int) -> None:
         """Doubles the bits of Φ and Ψ, if p and w have that many."""
@@ -47,12 +50,12 @@ class Neighbours:
             for column in zip(*phi, strict=True):
                 turned = self._solved(self.body.bent(omega, column), gamma)
                 off.append([x.derivative() - y for x, y in zip(column, turned, strict=True)])
-            mixed = _product(psi, list(zip(*off, strict=True)))
-            less = _product(phi, [[x.integral() for x in row] for row in mixed])
+            mixed = self._product(psi, list(zip(*off, strict=True)))
+            less = self._product(phi, [[x.integral() for x in row] for row in mixed])
             phi = _all([[x - y for x, y in zip(*rows, strict=True)] for rows in zip(phi, less, strict=True)])
-            one = _product(phi, psi)
+            one = self._product(phi, psi)
             twice = [[2 * (i == j) - x for j, x in enumerate(row)] for i, row in enumerate(one)]
-            self.phi, self.psi = ([_exact(row) for row in x] for x in (phi, _product(psi, twice)))
+            self.phi, self.psi = ([_exact(row) for row in x] for x in (phi, self._product(psi, twice)))
 
     def correction(self, p: Polynomials, w: Polynomials, found: Defects, terms: int) -> tuple[Polynomials, Polynomials]:
         """The correction that removes the defects of p and w to the first order when it is added."""
@@ -65,8 +68,8 @@ class Neighbours:
             whole = [x + y for x, y in zip(central, self.body.rotor, strict=True)]
             b = self._solved([x + off * y for x, y in zip(kappa, whole, strict=True)], gamma)
             away = generated.compose(a[0], -a[1], -a[2], -a[3], *e)
-            rest = _product(_all(self.psi), [[x + 2 * y] for x, y in zip(b, away[1:], strict=True)])
-            xi = [arb(-0.5) * x for (x,) in _product(_all(self.phi), [[x.integral()] for (x,) in rest])]
+            rest = self._product(_all(self.psi), [[x + 2 * y] for x, y in zip(b, away[1:], strict=True)])
+            xi = [arb(-0.5) * x for (x,) in self._product(_all(self.phi), [[x.integral()] for (x,) in rest])]
             move = generated.compose(*(*a, -away[0].integral(), *xi))  # the scalar brings |p| to 1
             turn = cross(omega, xi)
             change = [2 * (x + y + z.derivative()) for x, y, z in zip(turn, away[1:], xi, strict=True)]
@@ -74,7 +77,14 @@ class Neighbours:
 
     def _solved(self, v: Row, gamma: Row) -> Row:
         """B⁻¹v."""
+        self.tick()
         return generated.angular_velocity(*(*v, *gamma, *self.body.J, self.body.D))
+
+    def _product(self, left: Rows, right: Rows) -> Rows:
+        """The product of two matrices."""
+        self.tick()
+        columns = list(zip(*right, strict=True))
+        return [[sum(x * y for x, y in zip(row, column, strict=True)) for column in columns] for row in left]
 
 
 def _series(polynomials: Iterable[arb_poly | arb_series]) -> list[arb_series]:
@@ -93,12 +103,6 @@ def _exact(series: Row) -> list[arb_poly]:
 def _rows(matrices: np.ndarray) -> Sequence[Polynomials]:
     """A matrix of polynomials, from the matrices of their coefficients."""
     return [[arb_poly(matrices[:, i, j].tolist()) for j in range(3)] for i in range(3)]
-
-
-def _product(left: Rows, right: Rows) -> Rows:
-    """The product of two matrices."""
-    columns = list(zip(*right, strict=True))
-    return [[sum(x * y for x, y in zip(row, column, strict=True)) for column in columns] for row in left]
 
 
 #: The length of a step, as a part of the radius of convergence (least cost per unit of time), and in radians.
@@ -212,7 +216,7 @@ class Path:
         p = [x - x(0) + y for x, y in zip(_polys(series.a[:, :terms]), self.p, strict=True)]
         p, w = [exact(x) for x in p], [exact(x) for x in _polys(series.w[:, :terms])]
         bits, stuck, size, gain = GAIN, 0, math.inf, GAIN
-        neighbours = Neighbours(series, body)
+        neighbours = Neighbours(series, body, self.tick)
         while True:
             self.tick()
             bits = min(bits + BEYOND, self.precision)

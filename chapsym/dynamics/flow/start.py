@@ -12,6 +12,7 @@ import numpy as np
 from flint import acb_mat, arb, fmpq
 
 from chapsym import generated
+from chapsym.numbers import is_a
 from chapsym.rationals import NotANumber, exact_fraction, rational
 
 from ..ball import brief
@@ -50,13 +51,13 @@ def balls(v: Sequence[Number]) -> Vector:
 
 def exactly(value: Any, name: str) -> Fraction:
     """An exact number: a string, a Decimal, a Fraction, an integer, or a float, taken as its binary value."""
-    if isinstance(value, str):
+    if is_a(value, str):
         try:
             return rational(value, name)
         except NotANumber as error:
             raise BadInput(str(error)) from None
     try:
-        real = isinstance(value, Rational | Decimal | float) and not isinstance(value, bool | np.timedelta64)
+        real = is_a(value, Rational, Decimal, float) and not is_a(value, bool, np.timedelta64)
         if real or hasattr(value, "_mpf_"):
             return exact_fraction(value)
         plain = value.item() if getattr(value, "size", None) == 1 and not np.ma.is_masked(value) else value
@@ -69,12 +70,17 @@ def exactly(value: Any, name: str) -> Fraction:
     raise BadInput(f'{name} must be a number, or a text such as "0.1" or "2/7", not {brief(value)}')
 
 
+def first_of(values: Any, count: int) -> list[Any]:
+    """The first of these values, at most `count`: a generator may not end; none of what is no list."""
+    try:
+        return [] if is_a(values, str) else list(islice(values, count))
+    except Exception:  # whatever an object raises
+        return []
+
+
 def vector(values: Any, name: str, count: int = 3, exact: bool = True) -> tuple[Fraction, ...]:
     """A vector of exact numbers with this many components, or with at most this many."""
-    try:
-        listed = [] if isinstance(values, str) else list(islice(values, count + 1))  # that of a generator may not end
-    except Exception:  # whatever an object raises
-        listed = []
+    listed = first_of(values, count + 1)
     if len(listed) > count or (exact and len(listed) < count):
         raise BadInput(f"{name} must be {'' if exact else 'at most '}{count} numbers, not {brief(values)}")
     return tuple(exactly(x, f"{name} {i}") for i, x in enumerate(listed, start=1))

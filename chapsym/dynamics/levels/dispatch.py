@@ -26,7 +26,7 @@ LEVELS: dict[type[Precision], Callable[..., None]] = {
 
 def precision_of(precision: str | Precision) -> Precision:
     """The precision with this name; raises BadInput for anything else."""
-    if isinstance(precision, str) and precision in NAMED:
+    if type(precision) is str and precision in NAMED:
         return NAMED[precision]
     try:
         return named(precision)
@@ -118,7 +118,7 @@ def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int,
     The rotation is the attitude of a run that starts at the identity; for floats, the map gives it directly.
     """
     low, bounds = None, None
-    if order == 2 and isinstance(precision, Single | Double):
+    if len(substeps(order)) == 1 and isinstance(precision, Single | Double):
         of = (double.rounded(balls), double.SINGLE) if isinstance(precision, Single) else (balls, double.DOUBLE)
         q, K, g, status, reach = double.step_all(*of)
         if with_proof:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats, Parameters, common_shape, keep, largest_moment, numbers, over_states
+from ..ball import Floats, Parameters, common_shape, is_flag, keep, largest_moment, numbers, over_states
 from ..errors import BadInput
 from . import so_n
 
@@ -220,7 +220,7 @@ def attitudes_with(gamma: Floats) -> Floats:
 def initial_attitudes(attitude: bool | ArrayLike, gamma: Floats, shape: tuple[int, ...]) -> Floats:
     """The first attitudes, (b, n, n): the given ones, checked against γ, or the least rotations."""
     n = gamma.shape[-1]
-    if isinstance(attitude, bool | np.bool_):
+    if is_flag(attitude):
         return attitudes_with(gamma)
     R = numbers(attitude, "attitude")
     if R.shape[-2:] != (n, n):

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import chapsym.dynamics.native as native
-from chapsym.numbers import Digits, Double, Precision
+from chapsym.numbers import Digits, Double, Precision, is_a
 
 from ..ball import Floats, brief, callback, common_shape, in_shape, is_followed, largest_moment, unit_vertical
 from ..coefficients import COMPOSITIONS, substeps
@@ -334,7 +334,7 @@ def start(
     ball: BallN, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = False, contact: bool = False
 ) -> tuple[tuple[int, ...], dict[str, Floats]]:
     """The common leading shape, and the state for `run`, checked read-only arrays; raises BadInput."""
-    if not isinstance(ball, BallN):
+    if not is_a(ball, BallN):
         raise BadInput(f"ball must be a chapsym.BallN, not {type(ball).__name__}")
     K, g = skew_matrices(momentum, ball.n), unit_vertical(gamma, ball.n)
     radius = () if ball.radius is None else ball.radius.shape

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, Status
-from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.ball import Floats, brief, is_whole, plain_text
 from chapsym.dynamics.labelled import NOT_RUN
 from chapsym.scene.result.interpolation import per_ball as per_ball
 
@@ -32,12 +32,12 @@ def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
 def index_of(dataset: "Dataset", ball: str | int) -> int:
     """The index of a ball, from its name or an index (from the end if negative); raises BadInput if there is none."""
     names = ball_names(dataset)
-    if isinstance(ball, str) and ball in names:
-        return names.index(ball)
-    if isinstance(ball, int | np.integer) and not isinstance(ball, bool) and -len(names) <= ball < len(names):
+    if (text := plain_text(ball)) in names:
+        return names.index(text)
+    if is_whole(ball) and -len(names) <= int(ball) < len(names):
         return int(ball) % len(names)
     listed = ", ".join(names[:5]) + (f", ... ({len(names)} in all)" if len(names) > 5 else "")
-    raise BadInput(f"the result has no ball {ball!r}; its balls: {listed}")
+    raise BadInput(f"the result has no ball {brief(ball)}; its balls: {listed}")
 
 
 def begun(dataset: "Dataset") -> "Dataset":

@@ -9,6 +9,7 @@ import numpy as np
 
 from chapsym import files
 from chapsym.dynamics import BadInput
+from chapsym.dynamics.ball import brief, plain_text
 
 from ..drawing import curves, reading
 
@@ -100,9 +101,10 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     """
     from ..drawing.style import add_note, styled
 
-    if name not in kinds():
-        raise BadInput(f"there is no figure {name!r}; choose of {', '.join(kinds())}")
-    kind, chosen = kinds()[name], reading.with_balls(dataset, ball)
+    kind = kinds().get(plain_text(name) or "")
+    if kind is None:
+        raise BadInput(f"there is no figure {brief(name)}; choose of {', '.join(kinds())}")
+    chosen = reading.with_balls(dataset, ball)
     so_far = reading.unfinished(chosen)
     if so_far is not None:
         chosen = chosen.assign_attrs(title=f"{so_far}: {reading.title(chosen) or 'a result'}")
