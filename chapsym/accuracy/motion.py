@@ -323,7 +323,6 @@ def _rolled(
     return finished(run, UNKNOWN)
 
 
-@np.errstate(over="ignore", under="ignore")  # which is refused
 def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Floats:
     """K = Λω - D⟨ω,γ⟩γ; raises BadInput if float64 loses digits of K or 𝒦 = εK."""
     if ball.is_one and omega.ndim == gamma.ndim == 1:  # floats are faster for a single ball
@@ -332,9 +331,9 @@ def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Float
         K = np.array(several)
         if ORDINARY[0] < epsilon * max(map(abs, several)) < ORDINARY[1]:
             return K
-    else:
+    with np.errstate(over="ignore", under="ignore"):  # which is refused
         K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
-    momentum = epsilon * K
+        momentum = epsilon * K
     if not np.isfinite(momentum).all():
         raise BadInput("𝒦 = εK is beyond the range of float64, about 1.8e308; take a shorter time step or other units")
     if (small := np.abs(momentum).max(axis=-1) < SMALLEST).any() and np.any(
