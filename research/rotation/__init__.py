@@ -26,9 +26,9 @@ CAPTIONS = {
     "levels and heights.",
 }
 DRAWN = {
-    "rotation-staircase.svg": "drawn_plateaus:staircase", "rotation-displacement.svg": "drawn_circle:displacement",
-    "rotation-widths.svg": "drawn_plateaus:widths", "rotation-digits.svg": "drawn_plateaus:digits",
-    "rotation-numbers.svg": "drawn_circle:numbers",
+    "rotation-staircase.svg": "figure:staircase", "rotation-displacement.svg": "figure:displacement",
+    "rotation-widths.svg": "figure:widths", "rotation-digits.svg": "figure:digits",
+    "rotation-numbers.svg": "figure:numbers",
 }  # fmt: skip
 
 

@@ -59,17 +59,17 @@ def units(quick: bool) -> dict[str, list[Unit]]:
     return {
         # Averages over more and more steps: D = 0, 1, 7.
         "convergence": [
-            Unit(f"{HERE}.average:convergence", {**case, "counts": counts, "digits": many}) for case in averaged
+            Unit(f"{HERE}.measured:convergence", {**case, "counts": counts, "digits": many}) for case in averaged
         ],
         # ρ on a grid of levels and heights, for three D.
         "overview": [
-            Unit(f"{HERE}.average:row", {**grid, "D": D, "height": f"{3 * i}/{2 * rows}"})
+            Unit(f"{HERE}.measured:row", {**grid, "D": D, "height": f"{3 * i}/{2 * rows}"})
             for D in ("0", "1/2", "2")
             for i in range(1, rows + 1)
         ],
         # The displacement over the circle, each with D = 0 and the same q; and the perturbed top.
         "displacement": [
-            Unit(f"{HERE}.displacement:displacement", {**case, "turns": 1, "samples": 64 if case["steps"] < 16 else 96})
+            Unit(f"{HERE}.measured:displacement", {**case, "turns": 1, "samples": 64 if case["steps"] < 16 else 96})
             for case in DISPLACED[: 4 if quick else None]
         ],
         # One half turn in q steps, in l and in h: four balls.
@@ -98,12 +98,12 @@ def units(quick: bool) -> dict[str, list[Unit]]:
             Unit(f"{HERE}.staircase:plateaus", {**kicked, **inside, "fractions": listed}),
         ],
         # The cost of a step.
-        "times": [Unit(f"{HERE}.digits:times", {**BALL, "level": "243/1000", "digits": costs})],
+        "times": [Unit(f"{HERE}.measured:times", {**BALL, "level": "243/1000", "digits": costs})],
     }
 
 
 def _plateau(case: Data, steps: int, turns: int, in_height: bool = False) -> Unit:
-    return Unit(f"{HERE}.digits:measured", {**case, "steps": steps, "turns": turns, "in_height": in_height})
+    return Unit(f"{HERE}.measured:measured", {**case, "steps": steps, "turns": turns, "in_height": in_height})
 
 
 def fractions(largest: int, low: float, high: float) -> list[tuple[int, int]]:

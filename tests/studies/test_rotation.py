@@ -16,10 +16,9 @@ from chapsym.dynamics.closed.elliptic import Curve, increment
 from chapsym.dynamics.closed.vertical import step_vertical
 from chapsym.studies import checkout
 from research import rotation
-from research.rotation import average, digits, displacement, plateau, staircase
-from research.rotation.circle import Level, number
+from research.rotation import measured, staircase
+from research.rotation.circle import Level, Relation, number
 from research.rotation.plan import fractions, units
-from research.rotation.relation import Relation
 
 BALL = ((1, 2, 4), 1, "12/5")
 LAMINA = ((0, 1, 3), "1/2", "7/10")
@@ -82,7 +81,7 @@ def test_phases_and_arguments_are_inverse_from_turn_to_turn(sixty):
 
 
 def test_averages_converge_to_the_exact_increment_of_the_top():
-    found = average.convergence([1, 2, 4], "0", "12/5", "6/25", [128, 512, 1024], 30)
+    found = measured.convergence([1, 2, 4], "0", "12/5", "6/25", [128, 512, 1024], 30)
     errors = [float(x) for x in found["errors"]]
     assert found["exact"]
     assert errors[0] > 1e3 * errors[1] > 1e6 * errors[2]
@@ -93,7 +92,7 @@ def test_averages_agree_with_those_of_the_package_s_increments():
     steps = 400
     with ctx.workdps(20):
         level = Level(*BALL, "6/25")
-        here = float(average.mean(average.angles(level, steps), steps))
+        here = float(measured.mean(measured.angles(level, steps), steps))
         curve = Curve.through(chapsym.Ball((1, 2, 4), 1), [float(x) for x in level.point(arb(0))])
     t = np.arange(1, steps + 1) / (steps + 1)
     weights, u, moved = np.exp(-1 / (t * (1 - t))), 0.0, []
@@ -104,7 +103,7 @@ def test_averages_agree_with_those_of_the_package_s_increments():
 
 
 def test_a_row_says_where_the_branch_ends():
-    found = average.row([0, 1, 3], "1/2", "6/4", 3, 40, 20)
+    found = measured.row([0, 1, 3], "1/2", "6/4", 3, 40, 20)
     assert found["height"] == "3/2"
     assert found["row"][-1] is None
     assert 0.05 < float(found["row"][0]) < 0.4
@@ -113,7 +112,7 @@ def test_a_row_says_where_the_branch_ends():
 @pytest.mark.parametrize("steps", [8, 9])
 def test_the_edges_of_a_plateau_are_those_of_every_orbit(steps):
     """Just beyond an edge all orbits go on one way; just inside they do not: the symmetric ones are the extremes."""
-    found = plateau.plateau(*LAMINA, steps, 1)
+    found = measured.plateau(*LAMINA, steps, 1)
     with ctx.workdps(found["digits"]):
         for side in (-1, 1):
             for factor, ways in (("0.505", 1), ("0.495", 2)):
@@ -126,7 +125,7 @@ def test_the_edges_of_a_plateau_are_those_of_every_orbit(steps):
 def test_the_law_is_met_as_D_goes_to_0():
     off = []
     for power in (8, 10, 12):
-        found = plateau.plateau((0, 1, 3), Fraction(1, 2**power), "7/10", 8, 1)
+        found = measured.plateau((0, 1, 3), Fraction(1, 2**power), "7/10", 8, 1)
         off.append(1 - found["ratio"])
     assert off[2] == pytest.approx(0.0013, abs=2e-4)
     assert off[0] / off[1] == pytest.approx(4, rel=0.03)
@@ -149,7 +148,7 @@ def test_for_small_heights_the_increment_is_that_of_the_flow_of_lemma_almost_eve
 
 def test_the_width_in_the_height_is_that_in_the_level_by_the_slopes():
     before = ctx.prec
-    found = plateau.plateau(*LAMINA, 9, 1, in_height=True)
+    found = measured.plateau(*LAMINA, 9, 1, in_height=True)
     assert ctx.prec == before
     with ctx.workdps(50):
         here = number(found["level"])
@@ -161,19 +160,19 @@ def test_the_width_in_the_height_is_that_in_the_level_by_the_slopes():
 
 
 def test_the_known_plateau_of_9_and_a_resonance_that_is_not_there():
-    found = digits.measured(*BALL, 9, 1)
+    found = measured.measured(*BALL, 9, 1)
     assert found["level"].startswith("0.243000952906382635505326")
     assert [round(float(x) * 1e28, 3) for x in found["displacement"]] == [-1.403, 1.403]
     assert found["needed"] in (28, 29)
-    assert not digits.seen(found, 16)
+    assert not measured.seen(found, 16)
     with pytest.raises(BadInput, match="no level has the rotation number 1/3 half turns"):
-        plateau.plateau(*BALL, 3, 1)
+        measured.plateau(*BALL, 3, 1)
 
 
 def test_the_top_is_not_displaced_and_a_kicked_one_is():
-    ball = displacement.displacement(*BALL, 9, 1, 60, 32)
-    top = displacement.displacement((1, 2, 4), "0", "12/5", 9, 1, 60, 32)
-    kicked = displacement.displacement((1, 2, 4), "0", "12/5", 9, 1, 60, 32, kick="1/100")
+    ball = measured.displacement(*BALL, 9, 1, 60, 32)
+    top = measured.displacement((1, 2, 4), "0", "12/5", 9, 1, 60, 32)
+    kicked = measured.displacement((1, 2, 4), "0", "12/5", 9, 1, 60, 32, kick="1/100")
 
     def largest(case):
         return max(abs(float(x)) for x in case["values"])
@@ -191,7 +190,7 @@ def test_the_top_is_not_displaced_and_a_kicked_one_is():
 def test_a_spectrum_has_its_coefficients(sixty):
     n = 12
     values = [3 + 2 * (arb.pi() * 2 * i / n).cos() - (arb.pi() * 8 * i / n).sin() for i in range(n)]
-    found = displacement.spectrum(values)
+    found = measured.spectrum(values)
     expected = {0: (3, 0), 1: (2, 0), 4: (0, -1)}
     for j, (c, s) in enumerate(found):
         assert abs(c - expected.get(j, (0, 0))[0]) < sixty
