@@ -9,7 +9,7 @@ from chapsym.files import Data
 
 from ..harness import NotComparable
 from . import frontiers, requests
-from .frontier import Frontier, Point
+from .frontiers import Frontier, Point
 
 __all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "missed", "run"]
 
@@ -17,8 +17,8 @@ NAME, TITLE = "trade", "Speed against accuracy"
 ABOUT = "Time of the processor against correct digits, for every precision level, order and length of step."
 #: The sections that have a frontier, which are measured by default, and all of them.
 DRAWN: dict[str, Callable[..., object]] = {
-    "rounding": frontiers.rounding,
-    "proved": frontiers.proved,
+    "rounding": partial(frontiers.of_map, False),
+    "proved": partial(frontiers.of_map, True),
     "contact": partial(frontiers.one_ball, "contact"),
     "state": partial(frontiers.one_ball, "state"),
     "batch": frontiers.batch,

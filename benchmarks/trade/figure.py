@@ -10,7 +10,7 @@ from chapsym.numbers import in_words
 from chapsym.show.drawing import style
 from chapsym.show.drawing.style import Picture
 
-from .frontier import Frontier, Point
+from .frontiers import Frontier, Point
 
 #: A colour for each order, and a marker for each precision.
 COLOURS = {order: style.COLOURS[i] for order, i in (("2", 0), ("4", 4), ("6", 2), ("8", 1), ("12", 3), ("24", 5))}

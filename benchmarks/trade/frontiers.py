@@ -1,7 +1,11 @@
-"""The sections that have a frontier: rounding alone, one ball and a batch against the continuous ball."""
+"""The sections that have a frontier: points of time against digits, and those that no other one beats in both.
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+They measure rounding alone, what is proved of it, one ball and a batch against the continuous ball.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -9,19 +13,24 @@ import numpy as np
 from chapsym.accuracy import Method, Request, methods, take
 from chapsym.accuracy.answer import CHECKS, label_of
 from chapsym.accuracy.motion import EXTRAPOLATED
-from chapsym.dynamics import Ball, Trajectory, extrapolate, kernels, trajectory
+from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, extrapolate, kernels, trajectory
 from chapsym.dynamics.certified import exactly
+from chapsym.files import Data
 from chapsym.numbers import NAMED, Digits, Enclosure, Precision
 
 from ..harness import Run
-from .frontier import Choice, Frontier, Say, frontier
+from ..results import timed
 from .reference import sample, true_error, truth
 
-#: The measurement of rounding alone: |ω|ε in radians, the reference, and the precisions.
+Say = Callable[[str], None]
+#: The digits of the table's rows.
+EVERY = (3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 50, 100)
+#: The measurement of rounding alone: |ω|ε in radians, the reference, and the precisions; those with a proof.
 STEP, FINEST = 0.1, Digits(120)
 PRECISIONS: tuple[Precision, ...] = (
     *NAMED.values(), Digits(30), Digits(50), Digits(100), Enclosure(100), Enclosure(300),
 )  # fmt: skip
+PROVED = (NAMED["double"], NAMED["double-double"], Enclosure(100), Enclosure(300))
 #: How many steps of the cheap precisions make up a run that is timed: enough for a millisecond.
 TIMED = {NAMED["single"]: 20_000, NAMED["double"]: 20_000, NAMED["double-double"]: 4_000}
 #: Seconds of simulated time of one ball, and of a batch.
@@ -37,59 +46,169 @@ DIGITS, OF_BATCH = 34, 19
 BATCH, SHOWN = 256, 4
 
 
-def rounding(quick: bool, say: Say) -> Frontier:
-    """The digits that are left of 𝒦 and γ after some steps of the map, at each precision, and the time of a step."""
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """A choice to measure: its name (precision and order), how its error is found, and a run of a number of steps.
+
+    step: |ω|ε in radians; time: of the run, in seconds of the ball.
+    """
+
+    name: str
+    step: float
+    steps: int
+    time: float
+    error: Callable[[], float]
+    run: Run
+
+
+@dataclass(frozen=True)
+class Point:
+    """One choice: its name, its step, what it costs and how many digits it gives.
+
+    per_step, per_time: seconds a step, and a unit of simulated time, of one ball.  digits: -log₁₀ of the error.
+    """
+
+    name: str
+    step: float
+    per_step: float
+    per_time: float
+    digits: float
+
+
+@dataclass(frozen=True)
+class Frontier:
+    """The results of a section: all points, and the notes on them.
+
+    question: what the digits are of.  notes: the reference and how it was confirmed.
+    """
+
+    title: str
+    question: str
+    points: list[Point]
+    notes: list[str]
+
+    @property
+    def best(self) -> list[Point]:
+        """The points that no other one beats in both, from the cheapest."""
+        return [p for p in self._sorted() if not any(dominates(q, p) for q in self.points)]
+
+    @property
+    def dominated(self) -> dict[str, str]:
+        """Every choice that has no point on the frontier, and one that takes no longer for as many digits."""
+        best, found = self.best, {}
+        for name in dict.fromkeys(p.name for p in self.points if p.name not in {q.name for q in best}):
+            finest = max((p for p in self.points if p.name == name), key=lambda p: p.digits)
+            found[name] = next(p.name for p in best if dominates(p, finest))
+        return found
+
+    def _sorted(self) -> list[Point]:
+        return sorted(self.points, key=lambda p: (p.per_time, -p.digits))
+
+    def cheapest(self, digits: float) -> Point | None:
+        """The cheapest point with at least this many digits, or None."""
+        return next((p for p in self._sorted() if p.digits >= digits), None)
+
+    def table(self) -> list[Data]:
+        """The cheapest choice for each number of digits that some choice gives."""
+        return [
+            {
+                "digits": digits, "cheapest": p.name, "|ω|ε": p.step, "µs a step": p.per_step * 1e6,
+                "µs a unit of time": p.per_time * 1e6, "has": p.digits,
+            }
+            for digits in EVERY
+            if (p := self.cheapest(digits)) is not None
+        ]  # fmt: skip
+
+    def sentences(self) -> list[str]:
+        """The sentences on dominated points, and the notes."""
+        named = [f"dominated: {name} (by {better})" for name, better in self.dominated.items()]
+        return [self.question, *named, *self.notes]
+
+    def as_json(self) -> Data:
+        """The section as plain data; the points carry whether they are on the frontier."""
+        points = [vars(p) | {"frontier": p in self.best} for p in self.points]
+        clause = {"title": self.title, "question": self.question, "points": points}
+        return clause | {"dominated": self.dominated, "notes": self.notes}
+
+
+def dominates(p: Point, q: Point) -> bool:
+    """Whether p gives as many digits in as little time, and more of one or less of the other."""
+    no_worse = p.per_time <= q.per_time and p.digits >= q.digits
+    return no_worse and (p.per_time < q.per_time or p.digits > q.digits)
+
+
+def digits_of(error: float, most: float) -> float:
+    """-log₁₀ of an error, between 0 and what the reference can tell."""
+    return float(min(most, max(0.0, -math.log10(error)))) if error > 0 else most
+
+
+def frontier(
+    title: str, question: str, notes: list[str], choices: Iterable[Choice], most: float, rounds: int, say: Say,
+    balls: int = 1,
+) -> Frontier:  # fmt: skip
+    """Measures choices, on one core, each for a number of balls; those whose steps are not taken are left out.
+
+    most: the digits that the reference can tell.
+    """
+    digits, notes = {}, [*notes]
+    for one in choices:
+        say(f"{title}: {one.name}, {one.steps} steps")
+        try:
+            digits[one] = digits_of(one.error(), most)
+        except StepNotTaken:
+            continue
+        except BadInput as error:
+            notes.append(f"{one.name}: {error}")
+    runs = {f"{one.name} at {one.steps}": (one.run, balls) for one in digits}
+    points = []
+    for one, timing in zip(digits, timed(runs, rounds, say, title).values(), strict=True):
+        points.append(Point(one.name, one.step, timing.median / one.steps, timing.median / one.time, digits[one]))
+    return Frontier(title, question, points, notes)
+
+
+def of_map(proves: bool, quick: bool, say: Say) -> Frontier:
+    """The digits of 𝒦 and γ that are left after some steps of the map at each precision, and the time of a step.
+
+    proves: those that are proved, and the time of a step with its proof.
+    """
     request, steps = sample("state", 1.0), 50 if quick else 400
-    epsilon = STEP / request.rate
-    run = partial(trajectory, request.ball, epsilon * request.angular_momentum, request.gamma)
-    say(f"rounding: the reference at {FINEST.count} digits")
-    exact = ends(run(steps, every=steps, precision=FINEST))
-    size = float(sum(x * x for x in exact[:3])) ** 0.5
-
-    def choice(precision: Precision) -> Choice:
-        name = f"ball{precision.bits}" if isinstance(precision, Enclosure) else label_of(precision)
-        timed = TIMED.get(precision, steps)
-
-        def error() -> float:
-            apart = abs(ends(run(steps, every=steps, precision=precision)) - exact).astype(float)
-            return float(max(apart[:3].max() / size, apart[3:].max()))
-
-        timed_run = partial(run, timed, every=timed, precision=precision)
-        return Choice(f"{name}, order 2", STEP, timed, timed * epsilon, error, timed_run)
-
-    question = f"correct digits of 𝒦/|𝒦| and γ of the map after {steps} steps"
-    notes = [f"{steps} steps of |ω|ε = {STEP:g}; reference: the same steps at {FINEST.count} digits"]
-    rounds = 1 if quick else 5
-    return frontier("rounding alone", question, notes, map(choice, PRECISIONS), FINEST.count, rounds, say)
-
-
-def proved(quick: bool, say: Say) -> Frontier:
-    """The digits of 𝒦 and γ that are proved after some steps of the map, and the time of a step with its proof."""
-    request, steps = sample("state", 1.0), 50 if quick else 400
-    epsilon = STEP / request.rate
+    epsilon, notes = STEP / request.rate, f"{steps} steps of |ω|ε = {STEP:g}"
     momentum = epsilon * request.angular_momentum
     size = float(np.linalg.norm(momentum))
-    run = partial(trajectory, request.ball, momentum, request.gamma)
+
+    def run(steps: int, precision: Precision) -> Trajectory:
+        proved = proves and not isinstance(precision, Enclosure)
+        start = request.ball, momentum, request.gamma
+        return trajectory(*start, steps, every=steps, precision=precision, proved=proved)
+
+    if not proves:
+        say(f"rounding: the reference at {FINEST.count} digits")
+        exact = ends(run(steps, FINEST))
+        size = float(sum(x * x for x in exact[:3])) ** 0.5
+        notes += f"; reference: the same steps at {FINEST.count} digits"
+
+    def error(precision: Precision) -> float:
+        found = run(steps, precision)
+        if not proves:
+            apart = abs(ends(found) - exact).astype(float)
+            return float(max(apart[:3].max() / size, apart[3:].max()))
+        if (bounds := found.proved) is None:
+            radii = [[float(x.rad()) for x in v[-1]] for v in (found.momentum, found.gamma)]
+            return max(max(radii[0]) / size, *radii[1])
+        return float(max(bounds.momentum[-1] / size, bounds.gamma[-1]))
 
     def choice(precision: Precision) -> Choice:
-        enclosed = isinstance(precision, Enclosure)
-        timed = steps if enclosed else TIMED[NAMED["double-double"]]
-        ask = partial(run, precision=precision, proved=not enclosed)
-
-        def error() -> float:
-            found = ask(steps, every=steps)
-            if (bounds := found.proved) is None:
-                radii = [[float(x.rad()) for x in v[-1]] for v in (found.momentum, found.gamma)]
-                return max(max(radii[0]) / size, *radii[1])
-            return float(max(bounds.momentum[-1] / size, bounds.gamma[-1]))
-
         name = f"ball{precision.bits}" if isinstance(precision, Enclosure) else label_of(precision)
-        return Choice(f"{name}, proved", STEP, timed, timed * epsilon, error, partial(ask, timed, every=timed))
+        count = TIMED.get(precision, steps)
+        count = min(count, TIMED[NAMED["double-double"]]) if proves else count
+        clause = "proved" if proves else "order 2"
+        times = count, count * epsilon
+        return Choice(f"{name}, {clause}", STEP, *times, partial(error, precision), partial(run, count, precision))
 
-    question = f"proved digits of 𝒦/|𝒦| and γ of the map after {steps} steps"
-    notes = [f"{steps} steps of |ω|ε = {STEP:g}"]
-    precisions = (NAMED["double"], NAMED["double-double"], Enclosure(100), Enclosure(300))
-    return frontier("proved", question, notes, map(choice, precisions), FINEST.count, 1 if quick else 5, say)
+    kind, title = ("proved", "proved") if proves else ("correct", "rounding alone")
+    question = f"{kind} digits of 𝒦/|𝒦| and γ of the map after {steps} steps"
+    choices = map(choice, PROVED if proves else PRECISIONS)
+    return frontier(title, question, [notes], choices, FINEST.count, 1 if quick else 5, say)
 
 
 def ends(run: Trajectory) -> np.ndarray:

@@ -14,8 +14,7 @@ from first import BALL, FIRST
 from benchmarks import trade
 from benchmarks.trade import reference
 from benchmarks.trade.figure import draw
-from benchmarks.trade.frontier import Frontier, Point, digits_of
-from benchmarks.trade.frontiers import name_of
+from benchmarks.trade.frontiers import Frontier, Point, digits_of, name_of
 from benchmarks.trade.reference import sample, true_error, truth
 from benchmarks.trade.requests import Outcomes, measure
 from chapsym.accuracy import Method, methods, take
