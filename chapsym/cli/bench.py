@@ -1,4 +1,4 @@
-"""chapsym bench: what the map costs, compared with what a user would take instead."""
+"""chapsym extremes, study and bench: what a checkout of chapsym measures, in `research` and `benchmarks`."""
 
 from pathlib import Path
 from typing import Annotated
@@ -8,8 +8,47 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import BALL, Json, argument, ball_from, takes, with_options, writes
-from .output import Data, fail
+from .options import BALL, STUDIES, Json, argument, ball_from, takes, with_options, writes
+from .output import Data, check_known, fail
+
+
+@app.command()
+def extremes(
+    groups: Annotated[list[str] | None, argument("[GROUP]...", "Groups of conditions; all by default.")] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Short runs and small batches.")] = False,
+    output: Annotated[Path | None, writes("PAGE", "A page: .html, that opens from disk, or .md.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Judge every precision at the extremes: tiny momenta, folds, rotations by π, D up to 1e15, odd bodies.
+
+    Exit status 1 if a cell failed: wrong, or refused without a true reason.  It needs a checkout of chapsym.
+
+    Example: chapsym extremes --quick -o extremes.html
+    """
+    from chapsym.studies.checkout import in_checkout
+
+    in_checkout("research", "command").extremes(groups or [], quick, output, as_json)
+
+
+@app.command()
+def study(
+    name: Annotated[str, argument("NAME", f"{', '.join(STUDIES)}.")],
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer and coarser.")] = False,
+    output: Annotated[Path | None, writes("DIR", "For data and figures; an unfinished one is resumed.")] = None,
+    scheduler: Annotated[str | None, takes("ADDRESS", "A Dask scheduler, such as tcp://host:8786.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Measure: rotation numbers and mode locking of the reduced map, the energy of the full map, how much is chaotic.
+
+    With -o every unit of work is kept as it is done: repeat the command to resume an interrupted study.  It needs a
+    checkout of chapsym.
+
+    Example: chapsym study rotation --quick -o open
+    """
+    from chapsym.studies.checkout import in_checkout
+
+    check_known("study", [name], STUDIES)
+    in_checkout("research", "command").study(name, quick, output, scheduler, as_json)
 
 
 @app.command()

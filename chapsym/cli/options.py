@@ -33,6 +33,9 @@ def argument(metavar: str, help: str) -> Any:
     return typer.Argument(metavar=metavar, help=help)
 
 
+#: Packages of research, in a checkout.
+STUDIES = ("rotation", "energy", "chaos")
+
 #: By how much, relatively, a symmetric tensor may differ from its transpose, as in scenes.
 ASYMMETRY = Fraction(1, 10**12)
 

@@ -10,10 +10,9 @@ import typer
 import chapsym
 
 from .app import app
-from .options import Json, Own, Records, takes, writes
+from .options import STUDIES, Json, Own, Records, takes, writes
 from .output import Data, check_apart, fail, print_json, put
 from .prove import all_claims, kept_records, reading, records_of, register_from, tally
-from .study import STUDIES
 
 if TYPE_CHECKING:
     from chapsym.prove import Claim

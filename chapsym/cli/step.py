@@ -1,4 +1,4 @@
-"""chapsym step: one step of the map."""
+"""chapsym step and chapsym branches: one step of the map, and every rotation with a given momentum."""
 
 from typing import Annotated
 
@@ -67,3 +67,44 @@ def step(
     if proved:
         bounds = "  ".join(f"{name} {bound:.2g}" for name, bound in result["proved"].items() if bound is not None)
         print(f"off by at most, proved: {bounds or 'nothing, as near a fold'}")
+
+
+@app.command()
+@with_options(BALL)
+def branches(
+    momentum: Momentum,
+    gamma: Gamma,
+    digits: Annotated[int | None, takes("N", "Significant digits.", min=1, max=100_000)] = None,
+    precision: Annotated[
+        str | None, takes("NAME", "double: IEEE float64, the default.", "--precision", "--rung")
+    ] = None,
+    ball: Bits = None,
+    as_json: Json = False,
+    **body: str | None,
+) -> None:
+    """Find every rotation with the given momentum: all branches of the map, by angle, counted exactly.
+
+    Example: chapsym branches --mass-tensor 1,2,4 --D 1000 --momentum=-1/4,-3/2,1/2 --gamma 6/7,2/7,3/7
+    """
+    J, D = ball_from(body)
+    K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
+    chosen = precision_from(digits, precision, ball, ("double",))
+    from chapsym.dynamics.solutions.enclosed import precise_branches
+
+    found = precise_branches(J, D, K, g, chosen).write()
+    if as_json:
+        print_json(found)
+        return
+    _print_table(found)
+
+
+def _print_table(found: dict) -> None:
+    plural = "rotation" if found["count"] == 1 else "rotations"
+    print(f"{found['count']} {plural}, {'complete' if found['complete'] else 'not complete: ' + found['reason']}")
+    rows: list[tuple[str, ...]] = [("angle", "q0", "q1", "q2", "q3", "multiplicity")]
+    for s in found["solutions"]:
+        small = ", the small rotation" if s["small_rotation"] else ""
+        rows.append((*(str(x) for x in (s["angle"], s["q0"], *s["q"])), f"{s['multiplicity']}{small}"))
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    for row in rows if found["solutions"] else ():
+        print("  ".join(f"{text:{width}}" for text, width in zip(row, widths, strict=True)).rstrip())
