@@ -4,8 +4,7 @@ from functools import cache
 
 from chapsym.dynamics.oracle import Oracle
 from research.extremes.judging import mp
-from research.extremes.states import D
-from research.extremes.truth import DIGITS, State, condition, scaled
+from research.extremes.states import DIGITS, D, State, condition, scaled
 
 #: States in four dimensions at which formulas lose digits, with the components of 𝒦 below the diagonal, row by row.
 K4, G4, J4 = (0.3, -0.2, 0.5, 0.1, 0.4, -0.25), (0.1, 0.1, 0.7, 0.7), (1.0, 2.0, 0.5, 3.0)

@@ -8,8 +8,7 @@ from matplotlib.colors import Normalize
 from chapsym.files import Data
 from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
-from ..energy.continuous import Level
-from ..energy.section import state, unpacked
+from ..energy.section import Level, state, unpacked
 from .orbits import share
 
 

@@ -15,8 +15,7 @@ from chapsym.dynamics.loops.tangent import follow_all
 from chapsym.files import Data
 
 from ..energy.amplitude import chunks
-from ..energy.continuous import Level
-from ..energy.section import coordinates, rising, state
+from ..energy.section import Level, coordinates, rising, state
 
 LIMIT = 2.5
 #: A start near the unstable rotation is this many powers of ten away from axis 2, at most.

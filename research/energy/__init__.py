@@ -12,8 +12,7 @@ import numpy as np
 from chapsym.files import Data
 
 from ..units import Run, Unit, run_units
-from .continuous import Level
-from .section import packed
+from .section import Level, packed
 
 TITLE = "The energy of the whole map"
 #: The captions of the figures, in their order.

@@ -11,9 +11,8 @@ import numpy as np
 from chapsym.dynamics.ball import Floats
 from chapsym.files import Data
 
-from .continuous import Level
 from .resonance import closed_orbits, on_level, profile
-from .section import coordinates, crossings, state
+from .section import Level, coordinates, crossings, state
 
 #: Steps that are kept at once.
 CHUNK = 1 << 17

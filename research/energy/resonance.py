@@ -14,8 +14,7 @@ import numpy as np
 
 from chapsym.dynamics.ball import Floats
 
-from .continuous import Level
-from .section import coordinates, crossings, rising, state
+from .section import Level, coordinates, crossings, rising, state
 
 #: The step of the flow: of order 8, it is good to ten digits over a loop.
 STEP = 0.04

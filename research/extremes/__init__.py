@@ -18,7 +18,7 @@ from chapsym.dynamics import BadInput, StepNotTaken
 from chapsym.dynamics.levels.frames import cores
 from chapsym.files import Data
 
-from . import runs, states, steps
+from . import states, steps
 from .judging import BUDGET, DOUBLE, FAILED, LEVELS, ORDER, Judge, Judged, Level, refused, worst
 
 #: A condition at a precision, as JSON has it, but that numbers may be infinite.
@@ -56,17 +56,17 @@ GROUPS = {
         name: Group(f"One step: {title}", steps.judge, lambda name=name: states.conditions()[name])  # type: ignore[misc]
         for name, title in _TITLES.items()
     },
-    "runs": Group("Ten steps of a trajectory, compared with ten of the oracle", runs.ten_steps, states.starts),
-    "batch": Group("The same in a batch of 4096", partial(runs.ten_steps, balls=runs.BATCH), states.starts, _BATCHED),
+    "runs": Group("Ten steps of a trajectory, compared with ten of the oracle", steps.ten_steps, states.starts),
+    "batch": Group("The same in a batch of 4096", partial(steps.ten_steps, balls=steps.BATCH), states.starts, _BATCHED),
     "order": Group(
         "One step of the composition of order 8 (of order 4 when quick)",
-        runs.composed,
-        lambda: states.starts() | {"at 0.8 of the fold": [runs.near_its_fold]},
+        steps.composed,
+        lambda: states.starts() | {"at 0.8 of the fold": [steps.near_its_fold]},
     ),
-    "reverse": Group("Ten steps, and back", runs.way_back, states.starts, _DOUBLE),
+    "reverse": Group("Ten steps, and back", steps.way_back, states.starts, _DOUBLE),
     "long": Group(
         "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run",
-        runs.long_run,
+        steps.long_run,
         lambda: {f"ε = {size:g}": [size] for size in (1e-3, 0.05, 0.4)},
     ),
     "fold search": Group("Where the branch folds", steps.fold_search, states.folds, _DOUBLE),

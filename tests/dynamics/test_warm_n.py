@@ -13,7 +13,7 @@ from chapsym.dynamics.n import run_n, so_n
 from chapsym.dynamics.n.branch_n import small_rotation
 from chapsym.dynamics.n.near_n import limits
 from research.extremes.judging import BUDGET
-from research.extremes.truth import State
+from research.extremes.states import State
 
 ONE = np.ones(1)
 #: With so small a factor some corrections of the first ball are small enough, and some not.

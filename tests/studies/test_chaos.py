@@ -7,8 +7,7 @@ import chapsym
 from chapsym.dynamics.loops import loop, tangent
 from research import chaos
 from research.chaos.orbits import LIMIT, follow_orbits, sample, slab, starts
-from research.energy.continuous import Level
-from research.energy.section import state
+from research.energy.section import Level, state
 
 BALL = chapsym.Ball((1, 2, 4), 1.0)
 

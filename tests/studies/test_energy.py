@@ -6,9 +6,8 @@ import pytest
 import chapsym
 from research import energy
 from research.energy.amplitude import amplitude, drift, loop_change
-from research.energy.continuous import Level
 from research.energy.resonance import closed_orbits, loop_drift, on_level, profile
-from research.energy.section import coordinates, crossings, rising, state
+from research.energy.section import Level, coordinates, crossings, rising, state
 
 BALL = [[1.0, 2.0, 4.0], 1.0, 0.617126]
 LEVEL = Level((1.0, 2.0, 4.0), 1.0, 0.617126)

@@ -18,7 +18,7 @@ from chapsym.studies import check
 from research import extremes as study
 from research.extremes import judging, states, steps
 from research.extremes.judging import DOUBLE, ENCLOSURE, LEVELS, SINGLE, mp, number
-from research.extremes.truth import State, fold_at, truth
+from research.extremes.states import State, fold_at, truth
 
 PINS = json.loads((Path(__file__).parent / "extremes.json").read_text(encoding="utf-8"))
 #: How verdicts are pinned, a letter for each precision.
