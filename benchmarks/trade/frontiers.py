@@ -4,23 +4,34 @@ They measure rounding alone, what is proved of it, one ball and a batch against 
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
 
 import numpy as np
 
 from chapsym.accuracy import Method, Request, methods, take
-from chapsym.accuracy.answer import CHECKS, label_of
-from chapsym.accuracy.motion import EXTRAPOLATED
-from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, extrapolate, kernels, trajectory
+from chapsym.accuracy.answer import CHECKS, exact_values, label_of
+from chapsym.accuracy.motion import EXTRAPOLATED, lengths
+from chapsym.dynamics import (
+    BadInput,
+    Ball,
+    StepNotTaken,
+    Trajectory,
+    certified_motion,
+    extrapolate,
+    kernels,
+    trajectory,
+)
+from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.certified import exactly
+from chapsym.dynamics.levels.start import fraction
 from chapsym.files import Data
 from chapsym.numbers import NAMED, Digits, Enclosure, Precision
 
-from ..harness import Run
+from ..harness import NotComparable, Run
 from ..results import timed
-from .reference import sample, true_error, truth
 
 Say = Callable[[str], None]
 #: The digits of the table's rows.
@@ -44,6 +55,8 @@ LONGEST = {True: 0.02, False: 1.0}
 DIGITS, OF_BATCH = 34, 19
 #: Balls of a batch, and those of them whose error is taken.
 BATCH, SHOWN = 256, 4
+#: Seconds after which there is no reference, and its digits beyond the accuracy and those that the flow may cost.
+PATIENCE, BEYOND = 3600.0, 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,6 +177,53 @@ def frontier(
     for one, timing in zip(digits, timed(runs, rounds, say, title).values(), strict=True):
         points.append(Point(one.name, one.step, timing.median / one.steps, timing.median / one.time, digits[one]))
     return Frontier(title, question, points, notes)
+
+
+# The continuous ball (2.3) with its contact point, to proved digits: it shares no formula of motion with the map.
+
+
+def sample(of: str, time: float) -> Request:
+    """The ball of docs/first.toml, on which methods are compared."""
+    ball = Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+    K, g = np.array([0.0446, -0.0346, 0.0313]), np.array([2.0, 3.0, 6.0]) / 7
+    return Request(ball, K, g, time, 1e-6, of)
+
+
+def continuous(
+    ball: Ball, angular_momentum: Floats, gamma: Floats, attitude: Floats | None, times: Sequence[Fraction], digits: int
+) -> np.ndarray:
+    """K (kg m²/s), γ and the contact point (m) at ascending times (s): Fractions, (times, 8).
+
+    attitude: a quaternion, body to space; None for the least rotation that turns γ up.  All floats are taken as exact.
+    digits: of the state, at every time, as `certified_motion` proves them.  Raises NotComparable without them.
+    """
+    found = certified_motion(ball, angular_momentum, gamma, times, digits, attitude=attitude, limit=PATIENCE)
+    if found.stopped is not None:
+        raise NotComparable(found.stopped)
+    contact = found.contact if found.contact is not None else np.zeros((len(times), 2), int)
+    rows = np.hstack([found.angular_momentum, found.gamma, contact])
+    return np.vectorize(lambda x: fraction(x) if x else Fraction(0), otypes=[object])(rows)
+
+
+def truth(request: Request, digits: int = 0) -> np.ndarray:
+    """K, γ and the contact point at the times of comparison, (checks + 1, 8) Fractions."""
+    wanted = digits or math.ceil(-math.log10(request.accuracy) + math.log10(1 + request.angle)) + BEYOND
+    times = [Fraction(request.time) * k / CHECKS for k in range(CHECKS + 1)]
+    attitude = None if isinstance(request.attitude, bool | np.bool_) else request.attitude
+    return continuous(request.ball, request.angular_momentum, request.gamma, attitude, times, wanted)
+
+
+def true_error(request: Request, run: Trajectory, exact: np.ndarray) -> float:
+    """The error of a run in the request's norm, at the worst time of comparison that is a frame of the run."""
+    exact = exact[:: CHECKS // (len(run.index) - 1)]
+    if request.of == "contact":
+        return float(lengths(exact_values(request, run, "contact") - exact[:, 6:]).max())
+    size = float(lengths(request.angular_momentum))
+    momentum = lengths(exact_values(request, run, "momentum") - exact[:, :3]) / size
+    return float(max(momentum.max(), lengths(exact_values(request, run, "gamma") - exact[:, 3:6]).max()))
+
+
+# The sections.
 
 
 def of_map(proves: bool, quick: bool, say: Say) -> Frontier:

@@ -18,7 +18,7 @@ from chapsym.files import Data
 from chapsym.numbers import NAMED
 
 from ..harness import Contender, interleaved
-from .reference import true_error, truth
+from .frontiers import true_error, truth
 
 SEED, COUNT, QUICK = 2007, 50, 5
 #: The finest accuracy of most requests, and of one in FINER⁻¹.

@@ -13,7 +13,7 @@ from budget import slow
 
 import chapsym
 import chapsym.numbers
-from benchmarks.trade.reference import continuous, true_error, truth
+from benchmarks.trade.frontiers import continuous, true_error, truth
 from chapsym.accuracy import Method, Request, accurate, answer, distance, foreseen, take
 from chapsym.accuracy.answer import exact_values
 from chapsym.dynamics import BadInput, kernels

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import chapsym
-from benchmarks.trade.reference import continuous
+from benchmarks.trade.frontiers import continuous
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.derive.composition import defects, words
 from chapsym.dynamics import kernels

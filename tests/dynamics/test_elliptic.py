@@ -10,7 +10,7 @@ import pytest
 from budget import slow
 
 import chapsym
-from benchmarks.trade.reference import continuous
+from benchmarks.trade.frontiers import continuous
 from chapsym import BadInput, Ball, Curve, exact_top, increment, rotation_number, step_vertical, trajectory
 from chapsym.dynamics import kernels
 from chapsym.dynamics.closed import elliptic

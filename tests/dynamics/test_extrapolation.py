@@ -12,7 +12,7 @@ from budget import slow
 from plain import in_plain_python
 
 import chapsym
-from benchmarks.trade.reference import continuous
+from benchmarks.trade.frontiers import continuous
 from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.levels import double_double

@@ -7,17 +7,16 @@ import numpy as np
 import pytest
 
 from benchmarks import kernels
-from benchmarks.kernels import states
 from chapsym.codegen import build, passes
 from chapsym.generated import TABLE
 from chapsym.proofs.kernels import KERNELS
 
-POINTS = [np.random.default_rng([9, i]).uniform(size=states.DRAWN).tolist() for i in range(3)]
+POINTS = [np.random.default_rng([9, i]).uniform(size=kernels.DRAWN).tolist() for i in range(3)]
 
 
 def test_an_ulp_is_an_ulp():
     """The measure on a kernel that is off by a known amount."""
-    arguments = states.arguments("compose", "generic", POINTS[0])
+    arguments = kernels.arguments("compose", "generic", POINTS[0])
     exact = TABLE["compose"][0](*map(kernels.CONTEXT.mpf, arguments))
     size = max(map(abs, exact))
 
@@ -36,14 +35,14 @@ def test_the_condition_number_is_that_of_the_arguments():
     assert found["n"].condition == pytest.approx(2.0)
 
 
-@pytest.mark.parametrize("stratum", states.CHANGES)
+@pytest.mark.parametrize("stratum", kernels.CHANGES)
 def test_every_stratum_makes_what_it_says(stratum):
-    for drawn in (*POINTS, [0.0] * states.DRAWN, [1.0] * states.DRAWN):
-        world = states.world_of(stratum, drawn)
+    for drawn in (*POINTS, [0.0] * kernels.DRAWN, [1.0] * kernels.DRAWN):
+        world = kernels.world_of(stratum, drawn)
         assert abs(world.gamma @ world.gamma - 1) <= 4 * kernels.ULP
         assert (world.J >= 0).all()
         assert 0 < world.half <= np.pi / 2
-    world = states.world_of(stratum, POINTS[1])
+    world = kernels.world_of(stratum, POINTS[1])
     made = {
         "tiny": world.half <= 1e-6, "D = 0": world.D == 0, "D = 1e2 to 1e6": 1e2 <= world.D <= 1e6,
         "D = 1e6 to 1e14": world.D >= 1e6, "spinning about γ": np.abs(np.cross(world.axis, world.gamma)).max() <= 0.02,
@@ -112,7 +111,7 @@ def test_measured_rows():
     assert [(r["kernel"], r["output"]) for r in found.rows] == outputs
     for row in found.rows:
         kernel, worst = row["kernel"], row["worst"]
-        assert set(row["strata"]) == set(states.CHANGES)
+        assert set(row["strata"]) == set(kernels.CHANGES)
         assert worst.ulps == max(row["strata"].values())
         assert row["hardest"].share >= worst.share
         again = kernels.errors(kernel, TABLE[kernel][0], worst.stratum, worst.arguments)

@@ -12,10 +12,9 @@ from commands import chapsym as command
 from first import BALL, FIRST
 
 from benchmarks import trade
-from benchmarks.trade import reference
+from benchmarks.trade import frontiers
 from benchmarks.trade.figure import draw
-from benchmarks.trade.frontiers import Frontier, Point, digits_of, name_of
-from benchmarks.trade.reference import sample, true_error, truth
+from benchmarks.trade.frontiers import Frontier, Point, digits_of, name_of, sample, true_error, truth
 from benchmarks.trade.requests import Outcomes, measure
 from chapsym.accuracy import Method, methods, take
 from chapsym.cli.trade import print_answer
@@ -51,7 +50,7 @@ def test_the_reference_agrees_with_a_run_in_double_double_and_says_where_it_has_
     request = sample("contact", 2.0)
     run = take(request, Method(NAMED["double-double"], 8), 1600, 16)
     assert true_error(request, run, truth(request, 25)) < 1e-21
-    monkeypatch.setattr(reference, "LONGEST", 1e-9)
+    monkeypatch.setattr(frontiers, "PATIENCE", 1e-9)
     with pytest.raises(trade.NotComparable, match="not enough for 34 digits"):
         truth(request, 34)
 
