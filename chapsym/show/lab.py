@@ -2,39 +2,29 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from html import escape
+from pathlib import Path
 
-from chapsym.extras import need
+from markupsafe import Markup
+
 from chapsym.files import Data
+
+from . import rendered
 
 #: The columns of a table, with their widths as text.
 COLUMNS = {
     "method": 9, "order": 6, "energy": 11, "oscillation": 11, "drift": 10, "constraint": 10, "places": 7, "returns": 9,
     "µs/step": 8,
 }  # fmt: skip
-ABOUT = """<p>Oscillation: the range of the energy in the first tenth of the steps. Drift: the mean of the last tenth
-less that of the first. Constraint: the largest |A v + b| of the constraints on velocities; proved 0 where an equation
-of the method says so. Places: the largest value of the holonomic constraints. Order: of the error of the place when
-the steps are halved; - where rounding hides it. Returns: how far the place is from its start after 100 steps, the
-velocities turned round, and 100 steps. Proved and false are exact; all else is measured. Error of the place: after 16
-steps, and after as much time in steps of a half to a sixteenth, against 256 times as many steps of the same
-method.</p>
-"""
 
 
 def page(cells: Sequence[Data], titles: Mapping[str, str], constraints: Mapping[str, str]) -> str:
     """The page, as text; the cells are `chapsym.mechanics.Cell.data`, of each system a sentence on its constraints."""
-    from .drawing.style import document
-
-    names = dict.fromkeys(cell["system"] for cell in cells)
-    parts = []
-    for name in names:
-        own = [cell for cell in cells if cell["system"] == name]
-        rows = "".join(_row(cell, titles[cell["method"]]) for cell in own)
-        said = f"<p>{escape(constraints[name])}.</p>" if name in constraints else ""
-        head = f"<tr>{''.join(f'<th>{name}' for name in COLUMNS)}</tr>"
-        parts.append(f"<h2>{escape(name)}</h2>{said}<table>{head}{rows}</table>{_verdicts(own)}{_curves(own)}")
-    return document("Methods on mechanical systems", ABOUT + "\n".join(parts))
+    systems: dict[str, list[Data]] = {}
+    for cell in cells:
+        systems.setdefault(cell["system"], []).append(cell)
+    said = {"titles": titles, "constraints": constraints, "columns": COLUMNS, "figures": figures, "verdicts": _verdicts}
+    title = "Methods on mechanical systems"
+    return rendered(Path(__file__).with_name("lab.html"), title=title, systems=systems, curves=_curves, **said)
 
 
 def figures(cell: Data) -> list[str]:
@@ -77,36 +67,26 @@ def decided(cell: Data) -> list[str]:
     return [f"{verdict}: {', '.join(of)}" for verdict, of in found.items() if of]
 
 
-def _verdicts(cells: Sequence[Data]) -> str:
+def _verdicts(cells: Sequence[Data]) -> list[str]:
     """The verdicts of methods, with the exact states where they are false."""
     lines = []
     for cell in cells:
         for name, one in cell.get("verdicts", {}).items():
             at = ", ".join(f"{x} = {v}" for x, v in one["point"].items())
             said = " ".join(filter(None, (one["verdict"], one["said"], at and f"from {at}")))
-            lines.append("<li>" + escape(f"{cell['method']}: {name}: {said}"))
-    return f"<details><summary>Exact verdicts</summary><ul>{''.join(lines)}</ul></details>" if lines else ""
+            lines.append(f"{cell['method']}: {name}: {said}")
+    return lines
 
 
-def _row(cell: Data, title: str) -> str:
-    first = f"<tr><td>{escape(title)}"
-    if cell["failed"]:
-        return f"{first}<td colspan={len(COLUMNS) - 1}>{escape(cell['failed'])}</tr>"
-    *shown, rest = figures(cell)
-    more = f"<td>{escape(rest)}" if rest else ""
-    return first + "".join(f"<td>{one}" for one in shown) + f"{more}</tr>"
-
-
-def _curves(cells: Sequence[Data]) -> str:
+def _curves(cells: Sequence[Data]) -> Markup:
     """The change of the energy over time, on a scale that shows large and small ones; and the error against work."""
-    need("figures")
     from matplotlib.ticker import LogFormatterSciNotation
 
     from .drawing.style import COLOURS, legend, new, styled
 
     drawn = [cell for cell in cells if not cell["failed"]]
     if not drawn:
-        return ""
+        return Markup()
     with styled():
         figure, (energy, error) = new("", columns=2, height=3.8, width=11)
         for cell, colour in zip(drawn, COLOURS, strict=False):
@@ -122,4 +102,4 @@ def _curves(cells: Sequence[Data]) -> str:
         error.set(xscale="log", xlabel="µs of processor time", ylabel="error of the place")
         error.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, 0.4)))  # otherwise they overlap
         legend(figure, [energy, error])
-    return figure.svg()
+    return Markup(figure.svg())

@@ -1,15 +1,15 @@
 """The departure of an engine as curves, and as a page with the curves and one table."""
 
-import html
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+from markupsafe import Markup
 
 from chapsym import files
 from chapsym.dynamics.errors import BadInput
-from chapsym.show import figures
-from chapsym.show.drawing.style import WIDE, Picture, document, legend, new, styled
+from chapsym.show import figures, rendered
+from chapsym.show.drawing.style import WIDE, Picture, legend, new, styled
 
 from .judge import LIMITS, UNITS, Case, Convergence, Departure, limit_of, sentence, summary
 from .judge_tables import Trajectory
@@ -66,26 +66,10 @@ def draw(data: files.Data) -> Picture:
 def _page(
     case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence], curves: str
 ) -> str:
-    names = [name for name in UNITS if any(name in one for one in found)]
-    head = "".join(f"<th>{name}, {UNITS[name]}</th>" for name in names)
-    rows = ""
-    for run, one in zip(runs, found, strict=True):
-        results = summary(one, case.time)
-        cells = "".join(f"<td>{_cell(results.get(name))}</td>" for name in names)
-        step = "" if run.step is None else f"{run.step:g}"
-        rows += f"<tr><th>{html.escape(Path(run.file).name)}</th><td>{step}</td>{cells}</tr>\n"
-    said = "".join(f"<p>{html.escape(f'{name}: {sentence(one, UNITS[name])}')}</p>\n" for name, one in known.items())
-    limits = ", ".join(f"{limit_of(name)} ({name})" for name in LIMITS)
-    about = f"""<p>How far the ball of an engine is from the certified motion of a ball that rolls without slipping: the
-greatest distance at the frames, and when it passes {limits}.</p>
-<table><thead><tr><th>file</th><th>step, s</th>{head}</tr></thead><tbody>
-{rows}</tbody></table>
-"""
-    return document(f"{case.name}: an engine, judged", about + said + curves)
-
-
-def _cell(part: files.Data | None) -> str:
-    if part is None:
-        return ""
-    departs = part.get("departs")
-    return f"{part['greatest']:.3g}" + ("" if departs is None else f"<br><small>from {departs:g} s on</small>")
+    return rendered(
+        Path(__file__).with_name("judge.html"), title=f"{case.name}: an engine, judged", curves=Markup(curves),
+        limits=", ".join(f"{limit_of(name)} ({name})" for name in LIMITS),
+        units={name: unit for name, unit in UNITS.items() if any(name in one for one in found)},
+        rows=[(Path(run.file).name, run.step, summary(one, case.time)) for run, one in zip(runs, found, strict=True)],
+        sentences=[f"{name}: {sentence(one, UNITS[name])}" for name, one in known.items()],
+    )  # fmt: skip

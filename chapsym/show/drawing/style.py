@@ -6,7 +6,6 @@ import textwrap
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from html import escape
 from typing import IO, Any
 
 import numpy as np
@@ -155,32 +154,3 @@ def scale(axes: Sequence[Axes], data: np.ndarray, label: str) -> Any:
     mapped = ScalarMappable(Normalize(low, high if high > low else low + 1.0), MAP)
     colour_bar(mapped, axes, label)
     return mapped.to_rgba
-
-
-#: A page with tables and figures.  The figures are drawn for a light page: on a dark one their lines become light.
-DOCUMENT = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
-<style>
-:root {{ color-scheme: light dark; --paper: #fcfcfa; --ink: #1d2126; --muted: #59616a; --rule: #dcdfe2; }}
-@media (prefers-color-scheme: dark) {{
-  :root {{ --paper: #14171a; --ink: #e3e6e9; --muted: #a0a8b0; --rule: #343a40; }}
-  svg {{ filter: invert(.92) hue-rotate(180deg); }}
-}}
-body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem;
-  background: var(--paper); color: var(--ink); }}
-table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
-th, td {{ padding: .2rem .7rem; text-align: right; vertical-align: top; white-space: nowrap;
-  border-bottom: 1px solid var(--rule); }}
-th:first-child, td:first-child {{ text-align: left; }}
-small {{ color: var(--muted); }}
-</style></head>
-<body><h1>{title}</h1>
-{body}
-</body></html>
-"""
-
-
-def document(title: str, body: str) -> str:
-    """An HTML page that needs no network, in the light or dark colours of the reader's system."""
-    return DOCUMENT.format(title=escape(title), body=body)

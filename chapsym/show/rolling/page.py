@@ -10,7 +10,6 @@ from pathlib import Path
 from urllib.parse import quote
 
 import numpy as np
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from xarray import Dataset
 
@@ -18,6 +17,7 @@ from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.scene.result.summary import sentence
 
+from .. import rendered
 from ..drawing import reading
 from .motion import Motion, Rolling, motion
 
@@ -73,14 +73,8 @@ def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
     found = motion(dataset, balls)
     data = {"clock": _base64(found.clock, "<f8"), "unit": found.unit, "balls": list(map(_ball, found.balls))}
     modules = {"imports": {name: _module(file) for name, file in MODULES.items()}}
-    templates = Environment(
-        loader=FileSystemLoader(FOLDER),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return templates.get_template("page.html").render(
+    return rendered(
+        FOLDER / "page.html",
         title=_title(dataset),
         plan=_plan_line(dataset, found),
         notes=_notes(found),
