@@ -93,15 +93,11 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
         momentum = _rolling(beginning, D, radius, rotor)
     else:
         momentum = turning(_numbers(beginning, "omega"), D, beginning.get("axes") == "space", rotor)
-    place = (
-        tuple(x.rational for x in _numbers(beginning, "position"))
-        if "position" in beginning
-        else (Fraction(0), Fraction(0))
-    )
+    first, second = (x.rational for x in _numbers({"position": (0, 0)} | beginning, "position"))
     moving = _numbers(beginning, "velocity" if "velocity" in beginning else "omega")
     if any(map(any, rotor)) and not any(map(any, (*moving, _number(beginning.get("spin", 0), RATE)))):
         raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
-    start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, axes)
+    start = Start(moments, D, attitude, momentum, radius, (first, second), rotor, axes)
     return start, _times(scene, data["run"])
 
 

@@ -156,7 +156,7 @@ class _Reader:
         inertial = self._only(body, "inertial")
         if self.kind == "mjcf":
             self._check_masses()
-            inertial = None if self._compiler("inertiafromgeom", "auto")[0] == "true" else inertial
+            inertial = None if self._said("compiler", "inertiafromgeom", "auto")[0] == "true" else inertial
         if inertial is None:
             return name | self._of_one_material(body) | {"radius": radius}
         if inertial.get("auto", "false") not in ("false", "0"):
@@ -425,10 +425,10 @@ class _Reader:
             raise self._refused(where, f"<{where.tag}> is turned by {name}, which is not read: write quat or euler")
         if name == "quat":
             return self._numbers(where.attrib[name], where, 4)
-        unit, compiler = self._compiler("angle", "degree")
+        unit, compiler = self._said("compiler", "angle", "degree")
         if unit not in ("degree", "radian"):
             raise self._refused(compiler, f"<compiler>: angle must be degree or radian, not {unit!r}")
-        sequence, compiler = self._compiler("eulerseq", "xyz")
+        sequence, compiler = self._said("compiler", "eulerseq", "xyz")
         if len(sequence) != 3 or not set(sequence.lower()) <= set("xyz"):
             raise self._refused(compiler, f"<compiler>: eulerseq must be three of x, y, z, X, Y, Z, not {sequence!r}")
         if name == "axisangle":
@@ -436,9 +436,6 @@ class _Reader:
             return _about_axis(axis, angle, unit == "degree")
         angles = self._numbers(where.get("euler", "0 0 0"), where, 3)
         return _turned(angles, sequence, degrees=unit == "degree")
-
-    def _compiler(self, name: str, default: str) -> tuple[str, Element]:
-        return self._said("compiler", name, default)
 
     def _said(self, tag: str, name: str, default: str) -> tuple[str, Element]:
         """The value of an attribute in the last element with this tag and attribute, for the whole file, and where."""
@@ -448,7 +445,7 @@ class _Reader:
     def _check_masses(self) -> None:
         """Raises SceneError if <compiler> of MJCF changes masses or positions."""
         for name, plain in PLAIN.items():
-            value, where = self._compiler(name, plain)
+            value, where = self._said("compiler", name, plain)
             if value != plain:
                 clause = (
                     f"{name} = {value!r} makes others of the numbers in the file, and is not read: write the ball's own"

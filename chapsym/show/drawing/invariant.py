@@ -38,7 +38,9 @@ def unit(vectors: Floats) -> Floats:
 
 
 def is_vertical(momentum: Floats, gamma: Floats) -> bool:
-    """Whether 𝒦 = hγ, h ≠ 0, in every frame, (frames, 3)."""
+    """Whether 𝒦 = hγ, h ≠ 0, in every frame, (..., 3), but those that are NaN."""
+    there = np.isfinite(gamma).all(axis=-1)
+    momentum, gamma = momentum[there], gamma[there]
     direction = unit(momentum)
     return bool(momentum.any() and np.abs(np.cross(direction, gamma)).max() < VERTICAL)
 

@@ -141,9 +141,6 @@ def save_all(
     """
     reasons = available(dataset)
     wanted = [name for name, reason in reasons.items() if reason is None] if names is None else names
-    for name in wanted:
-        if reasons.get(name) is not None:  # before a folder is made
-            raise BadInput(f"{name}: {reasons[name]}")
     drawn = {name: draw(dataset, name) for name in wanted}  # before a folder is made
     files.made(folder)
     written = []

@@ -47,7 +47,7 @@ def draw(dataset: Dataset) -> Picture:
         found, t = {name: array[np.ix_(some, instants)] for name, array in found.items()}, t[instants]
     if "gamma" in found and "momentum" in found and not np.nan_to_num(found["momentum"]).any():
         del found["momentum"]
-    vertical = len(found) == 2 and _all_vertical(found)
+    vertical = len(found) == 2 and is_vertical(found["momentum"], found["gamma"])
     shown = ["gamma"] if vertical else list(found)
     figure, axes = new(reading.title(dataset), 1, len(shown), height=5.2 if len(shown) == 1 else 3.3)
     colours: Any = scale(axes, t, label)(t) if many else None
@@ -61,11 +61,6 @@ def draw(dataset: Dataset) -> Picture:
         axis.set_title("\n".join(filter(None, (title, reading.of_span(dataset, part)))))
     legend(figure, axes)
     return figure
-
-
-def _all_vertical(found: dict[str, Floats]) -> bool:
-    there = np.isfinite(found["gamma"]).all(axis=-1)
-    return is_vertical(found["momentum"][there], found["gamma"][there])
 
 
 def _panel(
