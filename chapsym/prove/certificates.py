@@ -64,22 +64,25 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> D
         "corrected": proof.corrected_text, "glossary": _glossary(printed, proof), "uses": sorted(set(proof.uses)),
         "hypotheses": hypotheses, **made.parts,
     }  # fmt: skip
-    for role in ("printed", "corrected") if data["glossary"] else ():
-        decided, found, _ = meaning.said(role, data, register.read(data, Work())[1])
-        for i, one in enumerate(decided):
-            one |= {} if i in found else {"words": True}
     try:
-        checker.check(_sealed(data))
+        return _accepted(data)
+    except checker.Rejected:  # perhaps only because what the formulas say in words is not marked
+        for role in ("printed", "corrected") if data["glossary"] else ():
+            decided, found, _ = meaning.said(role, data, register.read(data, Work())[1])
+            for i, one in enumerate(decided):
+                one |= {} if i in found else {"words": True}
+        return _accepted(data)
+
+
+def _accepted(data: Data) -> Data:
+    """The object with its statement and digest, open if it decides nothing; raises checker.Rejected."""
+    sealed = data | {"statement": checker.statement(data)}
+    sealed |= {"digest": checker.digest(sealed)}
+    try:
+        checker.check(sealed)
     except register.Undecided:  # decided by SymPy, without data that show how
-        checker.check(_sealed(data | {"verdict": "open"}))
-        data["verdict"] = "open"
-    return _sealed(data)
-
-
-def _sealed(data: Data) -> Data:
-    """The object with its statement and digest."""
-    data = data | {"statement": checker.statement(data)}
-    return data | {"digest": checker.digest(data)}
+        return _accepted(data | {"verdict": "open"})
+    return sealed
 
 
 def _glossary(printed: str, proof: Proof) -> list[list[Any]]:

@@ -29,19 +29,18 @@ Made = str | int | tuple[Any, ...] | None
 
 
 class Ratio(Arithmetic):
-    """A rational function over Q in lowest terms, with its origin; its denominator is monic and not 0."""
+    """A rational function over Q with its origin; its denominator is monic and not 0.
+
+    Sums and products are not brought to lowest terms: their greatest common divisors would take most of the time.
+    """
 
     __slots__ = ("denominator", "made", "numerator")
-    made: Made
 
-    def __init__(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> None:
+    def __init__(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly, made: Made = None) -> None:
         if denominator == 0:
             raise ZeroDivisionError("the denominator is the polynomial 0")
-        if denominator == 1:  # in most cases
-            self.numerator, self.denominator = numerator, denominator
-            return
         common = numerator.gcd(denominator) * denominator.leading_coefficient()
-        self.numerator, self.denominator = numerator / common, denominator / common
+        self.numerator, self.denominator, self.made = numerator / common, denominator / common, made
 
     def __eq__(self, other: object) -> bool:
         if (known := self._coerced(other)) is None:
@@ -55,12 +54,12 @@ class Ratio(Arithmetic):
             return NotImplemented
         if self.made == 0 or other.made == 0:  # for matrices with many zeros
             return other if self.made == 0 else self
+        if self.denominator == other.denominator:
+            return Ratio._of(self.numerator + other.numerator, self.denominator, ("+", self, other))
         common = self.denominator.gcd(other.denominator)
         mine, its = self.denominator / common, other.denominator / common
-        # Both are in lowest terms: only a factor of the common factor of their denominators can cancel.
-        total = Ratio(_product(self.numerator, its) + _product(other.numerator, mine), common)
-        whole = _product(total.denominator, _product(mine, its))
-        return Ratio._lowest(total.numerator, whole, ("+", self, other))
+        above = _product(self.numerator, its) + _product(other.numerator, mine)
+        return Ratio._of(above, _product(self.denominator, its), ("+", self, other))
 
     def __mul__(self, other: object) -> "Ratio":
         if (other := self._coerced(other)) is None:
@@ -68,10 +67,8 @@ class Ratio(Arithmetic):
         for one, another in ((self, other), (other, self)):
             if one.made in (0, 1):
                 return one if one.made == 0 else another
-        # Both are in lowest terms: after crosswise cancellation the product is in lowest terms, too.
-        one, two = Ratio(self.numerator, other.denominator), Ratio(other.numerator, self.denominator)
-        above, below = _product(one.numerator, two.numerator), _product(one.denominator, two.denominator)
-        return Ratio._lowest(above, below, ("*", self, other))
+        above, below = _product(self.numerator, other.numerator), _product(self.denominator, other.denominator)
+        return Ratio._of(above, below, ("*", self, other))
 
     def __truediv__(self, other: object) -> "Ratio":
         if (other := self._coerced(other)) is None:
@@ -84,23 +81,22 @@ class Ratio(Arithmetic):
     def __pow__(self, power: int) -> "Ratio":
         base = self if power >= 0 else self._inverse()
         result = prod([base] * abs(power), start=self._one())
-        return Ratio._lowest(result.numerator, result.denominator, ("^", self, power) if power else 1)
+        return Ratio._of(result.numerator, result.denominator, ("^", self, power) if power else 1)
 
     def lowest(self) -> "Ratio":
-        """The function without its origin: it is exported in lowest terms."""
-        return Ratio._lowest(self.numerator, self.denominator, None)
+        """The function in lowest terms, as which it is exported, without its origin."""
+        return Ratio(self.numerator, self.denominator)
 
     @classmethod
-    def _lowest(cls, numerator: fmpq_mpoly, denominator: fmpq_mpoly, made: Made) -> "Ratio":
-        """The lowest terms of two polynomials that are known to have no common factor, the second monic."""
+    def _of(cls, numerator: fmpq_mpoly, denominator: fmpq_mpoly, made: Made) -> "Ratio":
+        """The quotient of two polynomials, the second monic, as it is."""
         ratio = object.__new__(cls)
         ratio.numerator, ratio.denominator, ratio.made = numerator, denominator, made
         return ratio
 
     def _inverse(self) -> "Ratio":
         """The reciprocal."""
-        flipped = Ratio(self.denominator, self.numerator)
-        return Ratio._lowest(flipped.numerator, flipped.denominator, ("^", self, -1))
+        return Ratio(self.denominator, self.numerator, ("^", self, -1))
 
     def _coerced(self, other: object) -> "Ratio | None":
         """The other operand as a rational function of the same parameters; None if this is impossible."""
@@ -111,7 +107,7 @@ class Ratio(Arithmetic):
     def _one(self, times: int = 1) -> "Ratio":
         """The constant 1, or a multiple of it."""
         context = self.denominator.context()
-        return Ratio._lowest(context.constant(times), context.constant(1), times)
+        return Ratio._of(context.constant(times), context.constant(1), times)
 
 
 def _product(a: fmpq_mpoly, b: fmpq_mpoly) -> fmpq_mpoly:
@@ -124,7 +120,7 @@ def _product(a: fmpq_mpoly, b: fmpq_mpoly) -> fmpq_mpoly:
 def parameters(names: str) -> list[Ratio]:
     """Free parameters, one for each name."""
     context = fmpq_mpoly_ctx.get(tuple(names.split()), Ordering.degrevlex)
-    return [Ratio._lowest(x, context.constant(1), str(x)) for x in context.gens()]
+    return [Ratio._of(x, context.constant(1), str(x)) for x in context.gens()]
 
 
 @dataclass(frozen=True)

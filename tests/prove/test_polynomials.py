@@ -75,8 +75,8 @@ def test_sides_of_different_length_are_refused():
         Identity("e", [], [])
 
 
-def test_a_ratio_is_in_lowest_terms_with_a_monic_denominator():
-    ratio = (X**2 - Y**2) / (2 * X + 2 * Y)
+def test_the_lowest_terms_of_a_ratio_have_a_monic_denominator():
+    ratio = ((X**2 - Y**2) / (2 * X + 2 * Y)).lowest()
     assert (str(ratio.numerator), str(ratio.denominator)) == ("1/2*x - 1/2*y", "1")
     assert ratio == (X - Y) / 2
     assert ratio != X - Y
