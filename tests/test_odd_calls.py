@@ -244,6 +244,8 @@ REFUSED = {
     "there is no figure": lambda: chapsym.Result(run().to_xarray()).figure(np.zeros(3)),
     "has no ball": lambda: chapsym.Result(run().to_xarray()).figure(ball=Unheard()),
     "residual must be a row": lambda: chapsym.implicit_step(Unheard(), Unheard()),
+    "contact must be True or False": lambda: chapsym.trajectory(TURNED, K, UP, 1, contact=np.array([1, 2])),
+    "proved must be True or False": lambda: chapsym.step(TURNED, K, UP, proved=np.array([1, 2])),
     "run must be a Trajectory": lambda: chapsym.reverse([1]),
     "dataset must be the dataset of a result": lambda: chapsym.Result(run()),
     "dataset must be the dataset of a result, with ball": lambda: chapsym.Result(Unheard()),
@@ -305,4 +307,15 @@ def test_numpy_may_be_told_to_raise_where_a_number_is_too_small():
         assert chapsym.trajectory(tiny, (5e-324, 0, 1e-310), UP, 5, time_step=0.1).at([0.25]).gamma.shape == (1, 3)
         assert chapsym.certified_motion(tiny, (1e-200, 1e-170, 1e-300), UP, [0, 1]).stopped is None
         assert chapsym.roll(tiny, (1e-170, 1e-150, 1e-320), 0.1, 5).error < 1e-6
+        chapsym.StepperN(
+            chapsym.BallN((3e-4, 4e-5, 2e-4), 0), 1e-300 * chapsym.skew((2, -2.5, -1.3)), (0, 0.6, 0.8)
+        ).step(3)
+        top, up = chapsym.Ball((2.2, 2.2, 2.9), 4.4, 0.1), (0, 0.6, 0.8)
+        assert len(chapsym.accurate(top, (-8.1, -4.8, -3.5e-214), up, 0.1, 1e-20, frames=3).trajectory.index) == 4
+        assert (
+            chapsym.Curve.through(
+                chapsym.Ball((2.5, 0.7, 2.6), 126), (0.28, -0.25, -((1 - 0.28**2 - 0.25**2) ** 0.5))
+            ).point(1e-300)
+            < 1
+        ).all()
         assert chapsym.rotation_number(chapsym.Ball((7.9e-5, 0.36, 4.5e6), 0), 1e-270, (0, 1, 1e-113)) < 1

@@ -800,6 +800,7 @@ def _over(a: Floats, size: Floats) -> Floats:
     return np.asarray(a / np.where(size > 0, size, 1.0))
 
 
+@np.errstate(under="ignore")
 def lengths(v: np.ndarray) -> Floats:
     """The lengths, (...), of vectors (..., n) of floats or Fractions, whose squares may be beyond float64."""
     v = v.astype(float)

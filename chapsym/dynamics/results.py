@@ -17,7 +17,7 @@ from chapsym.numbers.pairs import add
 
 from . import kernels, labelled, principal_axes
 from .attitudes import initial_attitude
-from .ball import Asked, Ball, Floats, batch, in_shape, is_flag, numbers, unit_vertical
+from .ball import Asked, Ball, Floats, batch, flag, in_shape, is_flag, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
 from .n import so_n
@@ -44,7 +44,7 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
             "more digits than float64 has are kept in principal axes only: give the principal moments, and all vectors "
             "in their axes"
         )
-    if given.get("proved"):
+    if flag(given.get("proved", False), "proved"):
         raise BadInput("what is proved is of principal axes: give the principal moments, and all vectors in their axes")
     assert ball.axes is not None
     vectors = {
@@ -56,7 +56,7 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
     vectors = {name: array.reshape(*shape, 3) for name, array in zip(vectors, flat, strict=False)}
     found = {name: ball.to_principal(vector) for name, vector in vectors.items()}
     attitude = given.get("attitude", False)
-    if not is_flag(attitude) or attitude or given.get("contact"):
+    if not is_flag(attitude) or attitude or flag(given.get("contact", False), "contact"):
         start = initial_attitude(attitude, vectors["gamma"])
         found["attitude"] = principal_axes.attitude_to_principal(ball.axes, start)
     return {"ball": ball.principal, **found}

@@ -3,7 +3,8 @@
 import pytest
 from contrast import low
 
-from chapsym.show.drawing.style import document, new, styled
+from chapsym.show import rendered
+from chapsym.show.drawing.style import new, styled
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -12,8 +13,10 @@ def test_a_page_can_be_read_in_light_and_dark_and_its_figures_change_with_it(tmp
         figure, (axes,) = new("")
         axes.plot([0, 1], [0, 1])
     table = "<table><tr><th>file<td>1<br><small>from 1 s on</small></table>"
-    path = tmp_path / "page.html"
-    path.write_text(document("<Two>", f"<p>Said.</p>{table}{figure.svg()}"), encoding="utf-8")
+    path, template = tmp_path / "page.html", tmp_path / "template.html"
+    body = f"<p>Said.</p>{table}{figure.svg()}"
+    template.write_text(f'{{% extends "document.html" %}}{{% block body %}}{body}{{% endblock %}}', encoding="utf-8")
+    path.write_text(rendered(template, title="<Two>"), encoding="utf-8")
     tab = opened(path, color_scheme=scheme).tab
     assert tab.title() == "<Two>"
     poor, seen = low(tab, "h1, p, th, td, small")

@@ -247,8 +247,9 @@ class Curve(Brief):
         """The period 4K(k) of γ in u; infinite on the separatrix."""
         return 4.0 * quarter_period(self.complement)
 
+    @np.errstate(under="ignore")
     def point(self, u: ArrayLike) -> Floats:
-        """γ(u), shape (..., 3), for real u, (...)."""
+        """γ(u), shape (..., 3), for real u, (...), of up to about 1e15 periods."""
         sn, cn, dn = jacobi(numbers(u, "u"), self.modulus, self.complement)
         gamma = np.empty((*sn.shape, 3))
         for axis, amplitude, value in zip(self.axes, self.amplitudes, (cn, sn, dn), strict=True):

@@ -402,6 +402,7 @@ def some_balls(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
     return {name: array[at] for name, array in state.items()}
 
 
+@np.errstate(under="ignore")
 def continued(
     state: dict[str, Floats], frames: dict[str, Floats], stages: Iterable[Any], steps: Steps, ends: Ends,
     at: np.ndarray, count: Count, rotations: Callable[..., tuple[Floats, np.ndarray, Floats]] = small_rotation,
