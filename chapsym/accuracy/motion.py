@@ -119,6 +119,7 @@ ASIDE = np.array([0.6, 0.64, 0.48])
 ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
 
 
+@np.errstate(under="ignore")
 def roll(
     ball: Ball,
     omega: ArrayLike,
@@ -287,7 +288,6 @@ def _exact_momentum(ball: Ball, omega: ArrayLike, gamma: ArrayLike, time_step: A
     return epsilon * (turning + D[..., np.newaxis] * (spin - along / length * upwards)), upwards
 
 
-@np.errstate(under="ignore")
 @in_given_axes
 def _rolled(
     ball: Ball, omega: Floats, gamma: Floats, attitude: bool | Floats, contact: bool, precision: str | Precision,
