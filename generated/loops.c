@@ -4002,7 +4002,7 @@ INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
 }
 
 INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int spun, int rolled, r1 error, r1 noise,
-    r1 started) {
+    r1 started, i1 total) {
     real most, walked; real worst = R(0.0);
     for (int64_t i = 0, end_i = error.n0; i < end_i; i++) {
         most = turned ? AT2(reported, i, 0) : R(0.0); most = spun ? max_r(most, AT2(reported, i, 1)) : most;
@@ -4014,7 +4014,7 @@ INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int s
             error.p[i] = max_r(error.p[i] / AT2(reported, i, 5), R(2.0) * unit.p[i] * AT2(found, 7, i));
         }
         if (AT2(found, 1, i) > R(10000.0)) { noise.p[i] = R(1.0715086071862673e+301); }
-        worst = !(error.p[i] <= worst) ? error.p[i] : worst;
+        total.p[i] = (int64_t)AT2(reported, i, 4); worst = !(error.p[i] <= worst) ? error.p[i] : worst;
     }
     return worst;
 }
@@ -4134,7 +4134,7 @@ static void in_expected_surveyed(const argument *a, argument *got) {
 }
 
 static void in_expected_estimated(const argument *a, argument *got) {
-    real out = expected_estimated(r2_(0), r2_(1), r1_(2), b_(3), b_(4), b_(5), r1_(6), r1_(7), r1_(8));
+    real out = expected_estimated(r2_(0), r2_(1), r1_(2), b_(3), b_(4), b_(5), r1_(6), r1_(7), r1_(8), i1_(9));
     got[0].number = out;
 }
 
@@ -4164,12 +4164,12 @@ const loop_export LOOPS()[] = {
     {"proved_bound_steps", "r2 r2 r2 r1 r2 r2 r2 r2*", "", in_proved_bound_steps},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
     {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "rr", in_expected_surveyed},
-    {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "r", in_expected_estimated},
+    {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1* i1*", "r", in_expected_estimated},
 #endif
 #endif
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "d9417624f9ed07a31c69162dcc50d68a11973c069714c570a1de1eb7a8cfb0aa";
+const char loops_text[] = "cdddf79fd096584b68d0d4e1599a246f9bd59d7c24556bf6cf7201db7a697e87";
 #endif
 #endif

@@ -306,7 +306,7 @@ def _rolled(
     if radius is not None:
         radius = radius.reshape(1) if not shape else np.broadcast_to(radius, shape).reshape(-1).copy()
     if isinstance(attitude, bool):
-        turned = attitude_with(g if shape else g[0]).reshape(-1, 4) if contact or attitude else None
+        turned = attitude_with(g if shape else gamma).reshape(-1, 4) if contact or attitude else None
     else:
         turned = np.broadcast_to(attitude, (*shape, 4)).reshape(-1, 4)
     body = checked_before(J, D, radius)
@@ -317,7 +317,7 @@ def _rolled(
         taken = np.where(found.reached == problem.frames, steps, found.reached * every)
     found.angular_momentum *= epsilon
     run = of_balls(
-        Trajectory, shape, ball, np.arange(0, steps + 1, every), found.angular_momentum, found.gamma, found.attitude,
+        shape, ball, np.arange(0, steps + 1, every), found.angular_momentum, found.gamma, found.attitude,
         found.contact, taken, found.status, time_step=epsilon, order=0, error=found.error.reshape(shape),
     )  # fmt: skip
     return finished(run, UNKNOWN)
@@ -416,6 +416,8 @@ class Problem:
     def __post_init__(self) -> None:
         """Computes `units`, and `survey`, (FOUND, n), the estimates of `loops.expected` for each ball at the start."""
         ball, n = self.ball, len(self.K)
+        #: The time of the last frame, in s.
+        self.end = self.frames * self.interval
         #: The unit of each ball's error, (n,): 1, or the radius in m.
         self.units = np.empty(n)
         self.units[:] = ball.radius if self.metres and ball.radius is not None else 1.0
@@ -436,11 +438,6 @@ class Problem:
         few = checked_before(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
         attitude = None if self.attitude is None else self.attitude[some]
         return replace(self, ball=few, K=self.K[some], gamma=self.gamma[some], attitude=attitude)
-
-    @property
-    def end(self) -> float:
-        """The time of the last frame, in s."""
-        return self.frames * self.interval
 
     @property
     def rate(self) -> Floats:
@@ -648,11 +645,11 @@ def _run(
         else:
             watched(lambda: share(task, parts, workers, count), look, stop)
     found.order.fill(EXTRAPOLATED)
-    found.total[:] = reported[:, STEPS]
     asked_of = problem.parts
     turned = not asked_of or not asked_of.isdisjoint(TURNED)
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
-    worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)
+    errors = found.error, noise, started
+    worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, *errors, found.total)
     return worst, noise, started
 
 

@@ -149,6 +149,8 @@ def flag(value: bool, name: str) -> bool:
 
 def one_of(value: Text, name: str, *choices: Text) -> Text:
     """One of these texts; raises BadInput for anything else."""
+    if value is choices[0]:
+        return value
     text = plain_text(value)
     if text not in choices:
         listed = '" or "'.join(choices)
@@ -587,8 +589,8 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
     Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]); raises BadInput for a ball that has axes.
     """
     in_principal_axes(ball)
-    if ball.is_one and all(v.ndim == 1 for v in vectors):
-        return (), [v[np.newaxis] for v in (*vectors, ball.mass_tensor, ball.D)]
+    if ball.is_one and not [v for v in vectors if v.ndim > 1]:
+        return (), [v[None] for v in (*vectors, ball.mass_tensor, ball.D)]
     radius = () if ball.radius is None else ball.radius.shape
     leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, *(v.shape[:-1] for v in vectors)]
     shape = common_shape(leading, "ball (mass_tensor, D, radius) and of the vectors")
@@ -598,8 +600,8 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
 
 def in_shape(shape: tuple[int, ...], array: Asked) -> Asked:
     """A flat array (n, ...) with the leading axes `shape` in place of n; None stays None."""
-    if array is None or (not shape and array.ndim > 1):  # a view of one ball is faster
-        return None if array is None else array[0]
+    if array is None or not shape:
+        return None if array is None else array[0, ...]
     return array.reshape(shape + array.shape[1:])
 
 

@@ -246,7 +246,7 @@ def trajectory(
     def run(kept: Frames) -> Trajectory:
         body = kept.attitude if with_body else None, kept.contact if contact else None
         return of_balls(
-            Trajectory, shape, ball, np.arange(steps // every + 1) * every, kept.momentum, kept.gamma, *body,
+            shape, ball, np.arange(steps // every + 1) * every, kept.momentum, kept.gamma, *body,
             frame.taken, frame.status, time_step=time_step, order=order, precision=precision,
         )  # fmt: skip
 

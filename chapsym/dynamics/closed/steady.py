@@ -160,7 +160,7 @@ def steady_frames(
         status[i] = Status.NO_INERTIA if moment[0][i] == 0.0 else explain(status[i], K[i], g[i], J[i], D[i])
 
     arrays = momenta, verticals, attitudes, traces, np.where(taken, numbered[-1], 0), status
-    run = of_balls(Trajectory, shape, ball, numbered, *arrays, time_step=time_step)
+    run = of_balls(shape, ball, numbered, *arrays, time_step=time_step)
     return finished(run, 1.0 / np.where(taken, 1.0, sine))
 
 

@@ -553,7 +553,7 @@ def top_frames(
         attitudes = np.full_like(turned, np.nan)
         attitudes[taken] = kernels.compose(np.broadcast_to(first, turned.shape)[taken], turned[taken])
     arrays = momenta, verticals, attitudes, None, np.where(status == Status.TAKEN, numbered[-1], 0), status
-    return finished(of_balls(Trajectory, shape, ball, numbered, *arrays, time_step=time_step), reach)
+    return finished(of_balls(shape, ball, numbered, *arrays, time_step=time_step), reach)
 
 
 def motion_of(ball: Ball, K: Floats, g: Floats) -> TopMotion:

@@ -6,7 +6,7 @@ from chapsym.generated import angular_velocity
 
 from .branch import moments
 from .following import ACROSS, CAUTIOUS, FARTHEST, ROLLED, ROUNDINGS, SPUN, STEPS, TURNED, UNTIL, WALKED
-from .text import Matrix, Vector
+from .text import Integers, Matrix, Vector
 from .vectors import largest, length, shifted, three
 
 #: The estimates for a ball: |ω| at the start in rad/s; a bound for the condition of Λ - Dγγᵀ; whether it may rotate
@@ -75,9 +75,9 @@ def surveyed(
 
 def estimated(
     found: Matrix, reported: Matrix, unit: Vector, turned: bool, spun: bool, rolled: bool, error: Vector, noise: Vector,
-    started: Vector,
+    started: Vector, total: Integers,
 ):  # fmt: skip
-    """Writes the errors that the loop estimated, and the parts due to rounding of the steps and of the start.
+    """Writes the estimated errors, the parts due to rounding of the steps and of the start, and the numbers of steps.
 
     For a stopped ball they are NaN.  Rounding errors accumulate as a random walk, and are amplified as the errors are.
     turned, spun, rolled: which errors count.  Returns the largest error.
@@ -95,5 +95,6 @@ def estimated(
             error[i] = max(error[i] / reported[i, UNTIL], 2.0 * unit[i] * found[MOST, i])
         if found[CONDITION, i] > CONDITIONED:
             noise[i] = ENDLESS
+        total[i] = int(reported[i, STEPS])
         worst = error[i] if not error[i] <= worst else worst
     return worst

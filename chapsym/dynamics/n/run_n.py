@@ -191,7 +191,7 @@ def trajectory_n(
     frames, ends = _stepped(precision, state, order, Steps(0, steps, every), threads, Count(progress))
     flat = (*(frames.get(name) for name in MOVING), ends.taken, ends.status)
     result = of_balls(
-        Trajectory, shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order),
+        shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order),
         precision=precision_of(precision),
     )  # fmt: skip
     return finished(result, ends.reach)
