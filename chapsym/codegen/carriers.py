@@ -14,7 +14,7 @@ import sympy as sp
 
 from chapsym.checker import kernels as binding
 from chapsym.checker.rational import number_at
-from chapsym.derive.quotient import Quotient
+from chapsym.derive.quotient import Quotient, in_sympy
 from chapsym.files import Data
 from chapsym.prove import Examples
 from chapsym.prove.cofactors import Ideal, expression, ideal, trees
@@ -103,7 +103,7 @@ def _places(by: object) -> Places:
 
 def _trees(by: Any) -> Any:
     if isinstance(by, Mapping):
-        return [[symbol.name, tree(sp.sympify(value, strict=True))] for symbol, value in by.items()]
+        return [[symbol.name, tree(in_sympy(value))] for symbol, value in by.items()]
     return [_trees(one) if isinstance(one, Mapping) else one for one in by]
 
 

@@ -7,6 +7,7 @@ from keyword import iskeyword
 
 import sympy as sp
 
+from chapsym.derive.quotient import in_sympy
 from chapsym.prove.registers import raised
 
 from .carriers import Carrier
@@ -135,7 +136,7 @@ class Kernel:
     @cached_property
     def expressions(self) -> tuple[sp.Expr, ...]:
         """The computed expressions, derived once."""
-        return tuple(sp.sympify(e, strict=True) if e is not None else e for e in self.build())
+        return tuple(in_sympy(e) if e is not None else e for e in self.build())
 
     @cached_property
     def steps(self) -> tuple[Steps, Sequence[sp.Expr]]:

@@ -10,6 +10,8 @@ from functools import cache
 import sympy as sp
 from sympy.core.sorting import default_sort_key
 
+from chapsym.derive.quotient import in_sympy
+
 from . import printer
 from .kernels import Kernel, adjoined
 from .printer import BALANCED, POWERS
@@ -33,9 +35,9 @@ def lower(kernel: Kernel, passes: tuple[str, ...] = PASSES) -> tuple[Assignments
     done: Assignments = []
     for names, values in steps:
         unique = dict(zip(names, values, strict=True))  # a symmetric matrix has an entry twice
-        terms, rest = _simplified([sp.sympify(e) for e in unique.values()], fresh, passes)
+        terms, rest = _simplified([in_sympy(e) for e in unique.values()], fresh, passes)
         done += [*terms, *zip(unique, rest, strict=True)]
-    terms, rest = _simplified([sp.sympify(e) for e in outputs], fresh, passes)
+    terms, rest = _simplified([in_sympy(e) for e in outputs], fresh, passes)
     return done + terms, rest
 
 

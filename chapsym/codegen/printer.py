@@ -9,6 +9,8 @@ from collections.abc import Collection, Sequence
 import sympy as sp
 from sympy.core.sorting import default_sort_key
 
+from chapsym.derive.quotient import in_sympy
+
 
 class NotStraightLine(ValueError):
     """The expression needs more than + - * / and integers."""
@@ -24,7 +26,7 @@ BALANCED = "balanced"
 
 def text(expr: sp.Expr, passes: Collection[str] = (POWERS, BALANCED)) -> str:
     """The Python text of an expression; passes are omitted only to compare speeds."""
-    return _sum(sp.sympify(expr), passes)
+    return _sum(in_sympy(expr), passes)
 
 
 def _sum(expr: sp.Expr, passes: Collection[str]) -> str:

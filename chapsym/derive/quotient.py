@@ -8,10 +8,24 @@ arithmetic (python-flint).
 from collections.abc import Sequence
 from functools import cached_property
 from math import prod
+from numbers import Number
 
 import sympy as sp
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz
 from sympy.polys.rings import PolyRing
+
+
+def in_sympy(value: object) -> sp.Basic | sp.MatrixBase:
+    """A value of SymPy as it is, a number as one of SymPy's; raises TypeError for anything else.
+
+    `sympify`, even if it is strict, evaluates as code the texts in a list, a set or a mapping.
+    """
+    kind = type(value)
+    if issubclass(kind, sp.Basic | sp.MatrixBase):
+        return value
+    if not issubclass(kind, Number | fmpq | fmpz):
+        raise TypeError(f"{kind.__name__} is neither an expression of SymPy nor a number")
+    return sp.sympify(value)
 
 
 class Quotient:
@@ -47,11 +61,11 @@ class Quotient:
 
     def normal(self, expr: sp.Expr | int) -> sp.Expr:
         """The normal form of a polynomial modulo the relations."""
-        return self._shown(self._read(sp.sympify(expr, strict=True)))
+        return self._shown(self._read(in_sympy(expr)))
 
     def reduced(self, expr: sp.Expr) -> sp.Expr:
         """A rational function as a quotient of normal forms; the denominator has coprime integer coefficients."""
-        above, below = map(self._shown, self._fraction(sp.sympify(expr, strict=True))[0])
+        above, below = map(self._shown, self._fraction(in_sympy(expr))[0])
         content, below = below.as_content_primitive()
         return sp.expand(above / content) / below
 
@@ -62,7 +76,7 @@ class Quotient:
         ideal; it may still vanish there if the ideal is not radical.
         Raises ZeroDivisionError if a denominator vanishes under the relations.
         """
-        (numerator, _), divisors = self._fraction(sp.sympify(expr, strict=True))  # a string is not evaluated
+        (numerator, _), divisors = self._fraction(in_sympy(expr))
         for written, divisor in divisors:
             if self._rest(divisor) == 0:
                 raise ZeroDivisionError(f"the denominator {written} is zero under the hypotheses")

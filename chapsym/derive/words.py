@@ -16,6 +16,8 @@ from typing import Any
 
 import sympy as sp
 
+from .quotient import in_sympy
+
 Word = tuple[sp.Symbol, ...]
 
 
@@ -62,7 +64,7 @@ class WordAlgebra:
             if image.is_Symbol:
                 self.transposes.setdefault(image, symbol)
         self.example = {x: _rational(x, value) for x, value in (example or {}).items()}
-        self.rules = {pair: sp.sympify(value, strict=True) for pair, value in (rules or {}).items()}
+        self.rules = {pair: in_sympy(value) for pair, value in (rules or {}).items()}
         for symbol in self.transposes:
             if self.transpose(self.transpose(symbol)) != symbol:
                 raise ValueError(f"transposing {symbol} twice does not give {symbol} back")
@@ -218,7 +220,7 @@ class Traces:
 
 def _terms(expr: sp.Expr | int) -> Sequence[tuple[sp.Expr, Word]]:
     """The (coefficient, word) pairs of an expression."""
-    return _pairs(unfolded(sp.sympify(expr, strict=True)))
+    return _pairs(unfolded(in_sympy(expr)))
 
 
 @lru_cache(10_000)

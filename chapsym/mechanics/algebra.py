@@ -11,7 +11,7 @@ from sympy.matrices import dotprodsimp
 from sympy.polys.matrices import DomainMatrix
 
 from chapsym.codegen.kernels import adjoined
-from chapsym.derive import Quotient
+from chapsym.derive.quotient import Quotient, in_sympy
 from chapsym.prove import Examples
 from chapsym.prove.points import drawn, first, small, some
 
@@ -45,7 +45,7 @@ class Letters:
 
     def into(self, expr: sp.Expr) -> sp.Expr:
         """An expression with its functions replaced by letters; raises BadSystem for others than these."""
-        expr = sp.sympify(expr, strict=True)  # a text is not evaluated
+        expr = in_sympy(expr)
         if expr not in self._read:
             self._read[expr] = self._made(expr)
         return self._read[expr]
@@ -146,10 +146,10 @@ class Algebra:
         if isinstance(expr, sp.MatrixBase):
             return expr.applyfunc(self.into)
         try:
-            of = sp.sympify(expr, strict=True).xreplace(self._numbers)
+            of = in_sympy(expr).xreplace(self._numbers)
             floats = {x: rational(float(x), "a number") for x in of.atoms(sp.Float)}  # as they are written
             found = self.letters.into(sp.expand_trig(of.xreplace(floats)))
-        except (sp.SympifyError, TypeError, AttributeError, ZeroDivisionError):
+        except (TypeError, AttributeError, ZeroDivisionError):
             raise BadSystem(f"{self.system.name}: {expr!s:.60} is no expression") from None
         if found.has(sp.zoo, sp.nan, sp.oo):
             raise BadSystem(f"{self.system.name}: {expr!s:.60} divides by 0")

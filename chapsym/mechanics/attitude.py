@@ -5,9 +5,9 @@ from functools import cached_property
 import sympy as sp
 
 from chapsym.derive import three
-from chapsym.numbers import brief
+from chapsym.numbers import brief, is_a, plain_text
 
-from .system import BadSystem, dot
+from .system import BadSystem, a_symbol, dot, several
 
 _TURNS = {"x": sp.rot_ccw_axis1, "y": sp.rot_ccw_axis2, "z": sp.rot_ccw_axis3}
 
@@ -37,10 +37,11 @@ class Turned:
 
     def __init__(self, *turns: tuple[str, sp.Symbol]) -> None:
         self.rotation, self.spin = sp.eye(3), sp.zeros(3, 1)
-        for turn in turns:
-            if not (isinstance(turn, tuple | list) and len(turn) == 2 and turn[0] in tuple(_TURNS)):
+        for given in turns:
+            turn = several(given, "a turn")
+            if not (len(turn) == 2 and plain_text(turn[0]) in _TURNS):
                 raise BadSystem(f"a turn is an axis x, y or z and an angle, as ('z', heading), not {brief(turn)}")
-            axis, angle = turn
+            axis, angle = str.__str__(turn[0]), a_symbol(turn[1])
             one = _TURNS[axis](angle)
             self.rotation = self.rotation * one
             self.spin = one.T * self.spin
@@ -78,7 +79,7 @@ class Quaternion:
     """
 
     def __init__(self, name: str) -> None:
-        if not isinstance(name, str) or not name.isidentifier():
+        if not is_a(name, str) or not name.isidentifier():
             raise BadSystem(f"name must be a word, such as 'q', not {brief(name)}")
         self.coordinates = sp.symbols(f"{name}0:4")
         whole = sp.Matrix(self.coordinates)

@@ -15,7 +15,7 @@ from typing import Any
 import sympy as sp
 from flint import fmpq, fmpq_poly, fmpq_series
 
-from chapsym.derive import Quotient
+from chapsym.derive.quotient import Quotient, in_sympy
 from chapsym.numbers.precisions import flint_terms
 from chapsym.prove import Claim, Comparison, Equation, Examples, Identity, Proof, Verdict, tends
 from chapsym.prove.polynomials import Ratio, parameters
@@ -445,7 +445,7 @@ class Moving(OnShell):
 
     def equal(self, text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> Equation:
         """In the ring of the system."""
-        left, right = ([sp.sympify(e, strict=True) for e in side] for side in (left, right))
+        left, right = ([in_sympy(e) for e in side] for side in (left, right))
         return Equation(text, left, right, self.ring(*left, *right))
 
     @cached_property

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from chapsym.numbers import brief
+from chapsym.numbers import brief, is_a
 
 from .algebra import Algebra, adjugate, determinant, generic, pivots
 from .brackets import kernel
 from .series import replaced
-from .system import BadSystem, System, a_system, dot, expression, rate, without
+from .system import BadSystem, System, a_system, dot, expression, rate, several, without
 
 if TYPE_CHECKING:
     from sympy.physics.mechanics import KanesMethod
@@ -83,7 +83,7 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     >>> print(agree(particle, {x: -right, y: 0, z: -y * right + dot(x) * dot(y)}))
     not equal: they break the principle along 2 of 2, where -70 should be 0 at y = 2, y_dot = 5, z_dot = 7, x_dot = 7/2
     """
-    if not isinstance(accelerations, Mapping):
+    if not is_a(accelerations, Mapping):
         raise BadSystem(f"accelerations must be given as {{coordinate: expression}}, not {brief(accelerations)}")
     if missing := [x for x in a_system(system).coordinates if x not in accelerations]:
         raise BadSystem(f"{system.name}: there is no acceleration of {missing[0]}")
@@ -248,8 +248,8 @@ def in_symbols(expr: Any) -> Any:
     >>> in_symbols(x.diff() ** 2 - x)
     -x + x_dot**2
     """
-    if isinstance(expr, sp.MatrixBase | list | tuple):
-        made = [in_symbols(e) for e in expr]
+    if is_a(expr, sp.MatrixBase, list, tuple):
+        made = [in_symbols(e) for e in several(expr, "what is to be in symbols")]
         return sp.Matrix(expr.rows, expr.cols, made) if isinstance(expr, sp.MatrixBase) else type(expr)(made)
     expr = expression(expr, "what is to be in symbols")
     if any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative)):
@@ -283,7 +283,7 @@ def of_kane(method: "KanesMethod") -> dict[sp.Symbol, sp.Expr]:
     try:
         q, u, rates = list(method.q), list(method.u), dict(method.kindiffdict())
         forced = method.mass_matrix_full.LUsolve(method.forcing_full)
-    except (AttributeError, TypeError, ValueError):
+    except Exception:  # whatever another object raises
         raise BadSystem("this is no KanesMethod whose kanes_equations have been formed") from None
     pushed = dict(zip([x.diff() for x in u], forced[len(q) :], strict=True))
     speeds: dict[sp.Expr, sp.Expr] = next(iter(sp.solve([x.diff() - rates[x.diff()] for x in q], u, dict=True)), {})

@@ -21,7 +21,7 @@ import sympy as sp
 from flint import fmpq, fmpq_mat, fmpq_series, nmod, nmod_mat
 
 from chapsym.derive import Quotient
-from chapsym.numbers import brief
+from chapsym.numbers import brief, is_a
 from chapsym.numbers.precisions import flint_terms
 
 from .algebra import Letters, size
@@ -92,7 +92,7 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     >>> found["order"].said, found["self-adjoint"].verdict, found["keeps the energy"].verdict
     ('2', 'proved', 'false')
     """
-    if not isinstance(scheme, Scheme):
+    if not is_a(scheme, Scheme):
         raise BadSystem(f"scheme must be the scheme of a method, METHODS[name].scheme(system), not {brief(scheme)}")
     if tuple(scheme.state[: len(a_system(system).coordinates)]) != tuple(system.coordinates):
         raise BadSystem(f"scheme has other coordinates than {system.name}: take METHODS[name].scheme(system)")

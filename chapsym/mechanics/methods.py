@@ -13,7 +13,7 @@ from typing import Any
 import sympy as sp
 
 from chapsym.dynamics.implicit import Vector
-from chapsym.numbers import brief
+from chapsym.numbers import brief, plain_text
 
 from .system import STEP, BadSystem, System, a_system, after
 
@@ -102,7 +102,7 @@ class _Parts:
     """The functions of a system at any position and velocity, and the symbols of a scheme."""
 
     def __init__(self, system: System) -> None:
-        self.system, self.n, self.m = system, len(system.coordinates), system.rows.rows
+        self.system, self.n, self.m = system, len(a_system(system).coordinates), system.rows.rows
         self.q, self.v = sp.Matrix(system.coordinates), sp.Matrix(system.velocities)
         self.p = self.symbols("p", self.n)
 
@@ -159,6 +159,7 @@ def own(system: System) -> Scheme:
 
     p + D₁L(q, q') + A(q)ᵀλ = 0, the discrete constraints, and p' = D₂L(q, q').
     """
+    system = a_system(system)
     if system.discrete is None:
         raise BadSystem(f"{system.name} has no discretization of its own: give it discrete=Discrete(...)")
     of, action = _Parts(system), system.discrete.lagrangian
@@ -306,6 +307,7 @@ METHODS: dict[str, Method] = {
 
 def scheme_of(system: System, method: object) -> Scheme:
     """The equations of a method, by its name, for a system; raises BadSystem for an unknown method."""
-    if not isinstance(method, str) or method not in METHODS:
+    name = plain_text(method)
+    if name not in METHODS:
         raise BadSystem(f"{brief(method)} is no method; those are {', '.join(METHODS)}")
-    return METHODS[method].scheme(a_system(system))
+    return METHODS[name].scheme(a_system(system))

@@ -12,6 +12,7 @@ import sympy as sp
 from flint import ctx, fmpq, fmpq_mat, fmpq_series
 from flint.utils.flint_exceptions import DomainError
 
+from chapsym.derive.quotient import in_sympy
 from chapsym.prove import Examples
 from chapsym.prove.points import candidates
 
@@ -46,7 +47,7 @@ def by_parts(expressions: Iterable[sp.Expr], known: Mapping[sp.Expr, T], made: M
             found[expr] = made(expr, of)
         return found[expr]
 
-    return [of(sp.sympify(e, strict=True)) for e in expressions]
+    return [of(in_sympy(e)) for e in expressions]
 
 
 #: One step of an evaluation: a leaf, or what is done with the results of earlier steps at some places.

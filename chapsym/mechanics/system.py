@@ -16,7 +16,8 @@ import numpy as np
 import sympy as sp
 
 from chapsym import rationals
-from chapsym.numbers import brief
+from chapsym.derive.quotient import in_sympy
+from chapsym.numbers import brief, is_a
 from chapsym.prove.registers import raised
 
 #: The length of a step.
@@ -39,14 +40,14 @@ def without(where: str, strange: Set[sp.Basic], what: str = "no coordinate, velo
 
 def a_symbol(x: object) -> sp.Symbol:
     """The symbol; raises BadSystem for anything else."""
-    if not isinstance(x, sp.Symbol):
+    if not is_a(x, sp.Symbol):
         raise BadSystem(f"a coordinate must be a symbol, such as symbols('x'), not {brief(x)}")
     return x
 
 
 def a_system(given: object) -> "System":
     """The system; raises BadSystem for anything else."""
-    if not isinstance(given, System):
+    if not is_a(given, System):
         raise BadSystem(f"system must be a System, not {brief(given)}")
     return given
 
@@ -88,6 +89,11 @@ def rate(expr: sp.Expr | sp.MatrixBase, coordinates: Sequence[sp.Symbol]) -> sp.
     sympy.Expr or sympy.Matrix
         In the coordinates and their velocities `dot(x)`.
 
+    Raises
+    ------
+    BadSystem
+        For anything but real expressions of SymPy, and coordinates that are no symbols.
+
     Examples
     --------
     >>> from sympy import symbols
@@ -96,7 +102,10 @@ def rate(expr: sp.Expr | sp.MatrixBase, coordinates: Sequence[sp.Symbol]) -> sp.
     >>> rate(c * x**2, [x])
     2*c*x*x_dot
     """
-    return sum((sp.diff(expr, x) * dot(x) for x in coordinates), 0 * expr)
+    if not is_a(expr, sp.MatrixBase):
+        expr = expression(expr, "what changes")
+    moving = map(a_symbol, several(coordinates, "coordinates"))
+    return sum((sp.diff(expr, x) * dot(x) for x in moving), 0 * expr)
 
 
 def after(x: sp.Symbol) -> sp.Symbol:
@@ -216,7 +225,7 @@ class System:
         def put(name: str, value: object) -> None:
             object.__setattr__(self, name, value)
 
-        if not isinstance(self.name, str):
+        if not is_a(self.name, str):
             raise BadSystem(f"name must be a text, not {brief(self.name)}")
         for name in ("coordinates", "constraints", "holonomic"):
             put(name, several(getattr(self, name), f"{self.name}: {name}"))
@@ -226,13 +235,13 @@ class System:
         keys = {"forces": sp.Symbol, "parameters": sp.Symbol, "start": sp.Symbol, "integrals": str}
         for name, key in keys.items():
             given = getattr(self, name)
-            if not isinstance(given, Mapping) or not all(isinstance(x, key) for x in given):
+            if not is_a(given, Mapping) or not all(is_a(x, key) for x in given):
                 form = "{symbol: value}" if key is sp.Symbol else "{name: quantity}"
                 raise BadSystem(f"{self.name}: {name} must be given as {form}")
         for name, what in (("forces", "the force along"), ("integrals", "the integral")):
             given = getattr(self, name).items()
             put(name, {x: expression(e, f"{self.name}: {what} {x}") for x, e in given})
-        if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
+        if not self.coordinates or not all(is_a(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
         named = *self.coordinates, *self.parameters
         if odd := [x for x in named if not x.is_commutative or x.is_real is False or x.is_zero or type(x) is sp.Wild]:
@@ -270,10 +279,10 @@ class System:
             raise BadSystem(f"{self.name}: a constraint is not affine in the velocities")
 
     def _discretized(self, discrete: Discrete, allowed: set[sp.Symbol]) -> Discrete:
-        if not isinstance(discrete, Discrete):
+        if not is_a(discrete, Discrete):
             raise BadSystem(f"{self.name}: discrete must be Discrete(lagrangian, constraints)")
         given = discrete.lagrangian, *several(discrete.constraints, f"{self.name}: the constraints of discrete")
-        if not isinstance(discrete.integrals, Mapping) or not all(isinstance(x, str) for x in discrete.integrals):
+        if not is_a(discrete.integrals, Mapping) or not all(is_a(x, str) for x in discrete.integrals):
             raise BadSystem(f"{self.name}: integrals of discrete must be given as {{name: quantity}}")
         names = [*discrete.integrals]
         if taken := {"the energy", *self.integrals}.intersection(names):
@@ -435,7 +444,7 @@ def loaded(path: str | Path) -> System:
     Traceback (most recent call last):
     chapsym.mechanics.system.BadSystem: no-such-file.py is no file of a system: a Python file with SYSTEM = System(...)
     """
-    if not isinstance(path, str | os.PathLike):
+    if not is_a(path, str, os.PathLike):
         raise BadSystem(f"path must name a Python file, not {brief(path)}")
     path = Path(path)
     spec = importlib.util.spec_from_file_location(f"system_{path.stem}", path) if path.suffix == ".py" else None
@@ -456,21 +465,20 @@ def loaded(path: str | Path) -> System:
 
 def _read(value: Any) -> Any:
     """A number, of a text or a Decimal its fraction; raises TypeError for an object that is no single real number."""
-    strange = np.ma.MaskedArray | np.timedelta64
-    if isinstance(value, strange) or np.iscomplexobj(value) or np.ndim(value):
+    if is_a(value, np.ma.MaskedArray, np.timedelta64) or np.iscomplexobj(value) or np.ndim(value):
         raise TypeError
-    if isinstance(value, str):
+    if is_a(value, str):
         return rationals.rational(value, "a number")
-    return rationals.exact_fraction(value) if isinstance(value, Decimal) else value
+    return rationals.exact_fraction(value) if is_a(value, Decimal) else value
 
 
 def rational(value: Any, what: str) -> sp.Rational:
     """An exact number of a system; raises BadSystem, with the value, if it is no number."""
     try:
-        is_long = isinstance(value, sp.Float) and value._prec > sp.Float(0.5)._prec
-        is_float = isinstance(value, float | sp.Float)
+        is_long = is_a(value, sp.Float) and value._prec > sp.Float(0.5)._prec
+        is_float = is_a(value, float, sp.Float)
         found = Fraction(_read(str(value)) if is_long else repr(float(value)) if is_float else _read(value))
-    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+    except Exception:  # also what an object raises
         raise BadSystem(f"{what} is {brief(value)}, which is no rational number") from None
     return sp.Rational(found.numerator, found.denominator)
 
@@ -479,7 +487,7 @@ def number(value: Any, what: str) -> float:
     """The same as a finite float."""
     try:
         found = float(_read(value))
-    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+    except Exception:  # also what an object raises
         raise BadSystem(f"{what} is {brief(value)}, which is no number") from None
     if not math.isfinite(found):
         raise BadSystem(f"{what} is not finite")
@@ -498,9 +506,12 @@ def in_floats(
 
 def several(value: object, what: str) -> tuple[Any, ...]:
     """A sequence as a tuple; raises BadSystem for anything else."""
-    if isinstance(value, str | sp.Basic) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) == 0:
-        raise BadSystem(f"{what} must be a sequence, such as a list, not {brief(value)}")
-    return tuple(value)
+    try:
+        if is_a(value, Iterable) and not is_a(value, str, sp.Basic):
+            return tuple(value)
+    except Exception:  # of an array of no axes, and whatever an object raises
+        pass
+    raise BadSystem(f"{what} must be a sequence, such as a list, not {brief(value)}")
 
 
 def _smooth(expr: sp.Expr, what: str) -> None:
@@ -514,10 +525,10 @@ def _smooth(expr: sp.Expr, what: str) -> None:
 
 
 def expression(value: object, what: str) -> sp.Expr:
-    """An expression of numbers and symbols, with floats as written; a string is not evaluated."""
+    """An expression of numbers and symbols, with floats as written."""
     try:
-        found = sp.sympify(value, strict=True)
-    except sp.SympifyError:
+        found = in_sympy(value)
+    except Exception:  # also what a number of another kind raises
         found = None
     if not isinstance(found, sp.Expr) or found.is_Matrix or found.has(sp.nan, sp.zoo, sp.oo, sp.I):
         raise BadSystem(f"{what} is {brief(value)}, which is no real expression of SymPy")

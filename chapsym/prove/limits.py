@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from chapsym.derive.quotient import Quotient
+from chapsym.derive.quotient import Quotient, in_sympy
 
 from .statements import Comparison, Equation, Side
 
@@ -62,7 +62,7 @@ def tends(text: str, expression: sp.Expr, along: sp.Symbol, order: int, to: Side
     Examples
     --------
     >>> import sympy as sp
-    >>> from chapsym.derive import Quotient
+    >>> from chapsym.derive import Quotient, in_sympy
     >>> from chapsym.prove import tends
     >>> x, h = sp.symbols("x h")
     >>> ring = Quotient((x, h))
@@ -75,11 +75,11 @@ def tends(text: str, expression: sp.Expr, along: sp.Symbol, order: int, to: Side
     if bound := [relation for relation in ring.relations if relation.has(along)]:
         raise ValueError(f"{along} cannot tend to 0 by itself: the relation {bound[0]} has it")
     entries, ends = (list(v) if isinstance(v, sp.MatrixBase | Iterable) else [v] for v in (expression, to))
-    if any(sp.sympify(end, strict=True).has(along) for end in ends):
+    if any(in_sympy(end).has(along) for end in ends):
         raise ValueError(f"what something tends to cannot have {along}, which tends to 0")
     left, right = [], []
     for entry, end in zip(entries, ends, strict=True):
-        rest, below = _rest(sp.sympify(entry, strict=True), along, order)
+        rest, below = _rest(in_sympy(entry), along, order)
         left.append(entry)
         right.append(along**order * end + along ** (order + 1) * rest / below.as_expr())
         start = below.nth(0)

@@ -6,7 +6,7 @@ from random import Random
 import sympy as sp
 from sympy.core.relational import Relational
 
-from chapsym.derive.quotient import Quotient
+from chapsym.derive.quotient import Quotient, in_sympy
 
 from .points import Exact, drawn, first, small
 from .statements import Comparison, Equation, Point, Values, rational_point
@@ -39,7 +39,7 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     Examples
     --------
     >>> import sympy as sp
-    >>> from chapsym.derive import Quotient
+    >>> from chapsym.derive import Quotient, in_sympy
     >>> from chapsym.prove import counterexample, equations
     >>> x, y = sp.symbols("x y")
     >>> equal = equations(Quotient((x, y), [x**2 + y**2 - 1]))
@@ -81,7 +81,7 @@ def true(relation: Relational, values: Values) -> bool:
 def _fails(statement: Equation, values: Exact) -> bool:
     """Whether both sides have values at a point, and the values differ."""
     try:
-        left, right = statement.at(lambda entry: sp.sympify(entry, strict=True).xreplace(values))
+        left, right = statement.at(lambda entry: in_sympy(entry).xreplace(values))
     except ArithmeticError:
         return False
     return left != right
