@@ -115,6 +115,8 @@ typedef struct { t_r3 a0, a1, a2; real a3; } t__r3_3r;
 typedef struct { t_r4 a0; t_r3 a1; real a2; } t__r4__r3_r;
 typedef struct { t_r4 a0; t_r3 a1; real a2; int a3, a4; } t__r4__r3_rb2;
 typedef struct { t_r4 a0; real a1, a2; } t__r4_r2;
+typedef struct { real a0, a1, a2, a3, a4; } t_r5;
+typedef struct { t_r5 a0, a1; } t__r5_2;
 typedef struct { t_r2 a0, a1, a2; } t_p3;
 typedef struct { int a0; t_p3 a1; } t_b_p3_;
 typedef struct { int a0; t_r4 a1; } t_b_r4_;
@@ -137,7 +139,6 @@ typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11; } t_r12;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12; } t_r13;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17; } t_r18;
 typedef struct { real a0, a1, a2; t_r3 a3; } t_r3_r3_;
-typedef struct { real a0, a1, a2, a3, a4; } t_r5;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; } t_r8;
 typedef struct { real a0; t_r9 a1; } t_r_r9_;
 
@@ -3374,7 +3375,7 @@ INLINE void carried_begun(r2 E, int64_t B, int64_t b, t_r3 J, real start) {
         vectors_put_in(E, 51, i, J);
         for (int64_t row = 59; row < 119; row++) { AT2(E, row, i) = R(0.0); }
     }
-    AT2(E, 64, b) = start * start; AT2(E, 67, b) = start * start; AT2(E, 69, b) = start * start;
+    AT2(E, 64, b) = start; AT2(E, 67, b) = start; AT2(E, 69, b) = start;
 }
 
 INLINE int64_t following_taken_in(Crew crew, int64_t B, int64_t b, int64_t i, Frames frames, Balls balls, Weights
@@ -3640,7 +3641,7 @@ INLINE real following_spinning(r2 E, int64_t B, int64_t b) {
 }
 
 INLINE void following_looked_at(Crew crew, int64_t B, int64_t b, int lost, int traced, r2 sums, Asked asked) {
-    int inside; t_r2 off; real speed, worst, more, rounding; r2 S = crew.S, E = crew.E;
+    int inside; t_r2 off; real speed, worst, more, rounding, heavy; t_r3 w, s, m; r2 S = crew.S, E = crew.E;
     r1 lane = r2_row(crew.lanes, b); int64_t i = (int64_t)AT2(crew.lanes, b, 4);
     real start = asked.start.p[i], bearable = R(0.4) * asked.most.p[i]; AT2(E, 78, b) = R(0.0);
     AT2(E, 82, b) = R(0.0);
@@ -3664,8 +3665,10 @@ INLINE void following_looked_at(Crew crew, int64_t B, int64_t b, int lost, int t
     if (lane.p[12] == R(3.0)) {
         real t_4 = min_r(R(1.05) * lane.p[20], R(1e+300)), t_5 = min_r(R(1.05) * lane.p[10], R(1e+300));
         lane.p[20] = t_4; lane.p[10] = t_5;
-        rounding = R(27.1) * max_r(start, R(5.551115123125783e-17) * AT2(E, 103, b));
-        if (AT2(E, 16, b) == R(0.0) && AT2(E, 17, b) == R(0.0) && AT2(E, 18, b) == R(0.0)) {
+        rounding = R(27.1) * max_r(start, R(5.551115123125783e-17) * AT2(E, 103, b)); w = vectors_three_in(E, 13, b);
+        s = vectors_three_in(E, 16, b); heavy = AT2(S, 30, b);
+        m = (t_r3){w.a0 * (AT2(S, 27, b) + heavy), w.a1 * (AT2(S, 28, b) + heavy), w.a2 * (AT2(S, 29, b) + heavy)};
+        if (vectors_dot(s, s) <= R(0.0001) * (vectors_dot(m, m) * vectors_dot(w, w))) {
             lane.p[21] = lane.p[21] + R(1.0);
             rounding = max_r(rounding, R(1.6653345369377348e-14)) * R(sqrt(R(2.0) * lane.p[21] - R(1.0)));
         }
@@ -3778,38 +3781,60 @@ INLINE void carried_leave(r2 S, r2 E, int64_t B, int traced) {
     }
 }
 
+INLINE t_r5 carried_moved(r2 E, int64_t b, int64_t i, int64_t j, int64_t k, t_r3 l, int64_t n) {
+    t_r3 v = carried_applied((t__r3_3){vectors_three_in(E, 54, i), vectors_three_in(E, 54, j), vectors_three_in(E, 54,
+        k)}, l);
+    real x = AT2(E, 70 + n, b) + vectors_dot(carried_row_of(E, 57, i, j, k), l);
+    real y = AT2(E, 70 + n + 1, b) + vectors_dot(carried_row_of(E, 58, i, j, k), l);
+    return (t_r5){v.a0, v.a1, v.a2, x, y};
+}
+
+INLINE t_r2 carried_rotation(real x, real y) {
+    real size = R(sqrt(x * x + y * y)), over = size > R(0.0) ? size : R(1.0);
+    return (t_r2){size > R(0.0) ? x / over : R(1.0), y / over};
+}
+
+INLINE t__r5_2 carried_turned(t_r2 by, t_r5 p, t_r5 q) {
+    t_r2 c = by;
+    return (t__r5_2){(t_r5){c.a0 * p.a0 + c.a1 * q.a0, c.a0 * p.a1 + c.a1 * q.a1, c.a0 * p.a2 + c.a1 * q.a2, c.a0 *
+        p.a3 + c.a1 * q.a3, c.a0 * p.a4 + c.a1 * q.a4}, (t_r5){c.a0 * q.a0 - c.a1 * p.a0, c.a0 * q.a1 - c.a1 * p.a1,
+        c.a0 * q.a2 - c.a1 * p.a2, c.a0 * q.a3 - c.a1 * p.a3, c.a0 * q.a4 - c.a1 * p.a4}};
+}
+
 INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
-    int64_t i, j, k; t_r3 a, d, c, s11, s22, s1, s2, s3, p1, p2, p3, east, north, m, n, u, v;
-    real error, e11, e12, e13, e22, e23, e33, rounded, x, y, z, one; carried_flown(E, B, traced);
-    carried_leave(S, E, B, traced);
+    int64_t i, j, k; real error, r, v, east, north, own, out; t_r2 u; t_r5 p, q, s, x, y, z;
+    t_r3 one, two, last, a, d, c; t__r3_3 columns; carried_flown(E, B, traced); carried_leave(S, E, B, traced);
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        i = b; j = B + b; k = 2 * B + b; a = carried_row_of(E, 54, i, j, k); d = carried_row_of(E, 55, i, j, k);
-        c = carried_row_of(E, 56, i, j, k); error = AT2(E, 82, b); s11 = vectors_three_in(E, 64, b);
-        s22 = vectors_three_in(E, 67, b); s1 = (t_r3){s11.a0, s11.a1, s11.a2}; s2 = (t_r3){s11.a1, s22.a0, s22.a1};
-        s3 = (t_r3){s11.a2, s22.a1, s22.a2}; p1 = (t_r3){vectors_dot(a, s1), vectors_dot(a, s2), vectors_dot(a, s3)};
-        p2 = (t_r3){vectors_dot(d, s1), vectors_dot(d, s2), vectors_dot(d, s3)};
-        p3 = (t_r3){vectors_dot(c, s1), vectors_dot(c, s2), vectors_dot(c, s3)}; e11 = vectors_dot(p1, a) + error;
-        e12 = vectors_dot(p1, d); e13 = vectors_dot(p1, c); e22 = vectors_dot(p2, d) + error;
-        e23 = vectors_dot(p2, c); e33 = vectors_dot(p3, c) + error; vectors_put_in(E, 64, b, (t_r3){e11, e12, e13});
-        vectors_put_in(E, 67, b, (t_r3){e22, e23, e33}); rounded = R(0.0);
-        for (int64_t n = 0; n < 3; n++) {
-            t_r3 t_1 = carried_row_of(E, 19 + n, i, j, k); x = t_1.a0; y = t_1.a1; z = t_1.a2;
-            rounded = rounded + (x * (x * e11 + R(2.0) * (y * e12 + z * e13)) + y * (y * e22 + R(2.0) * z * e23) + z *
-                z * e33);
-        }
-        AT2(E, 86, b) = R(sqrt(e11 + e22 + e33)); AT2(E, 87, b) = R(sqrt(max_r(rounded, R(0.0))));
+        i = b; j = B + b; k = 2 * B + b; error = AT2(E, 82, b); r = R(sqrt(error));
+        u = (t_r2){AT2(E, 67, b), AT2(E, 68, b)}; v = AT2(E, 69, b);
+        p = carried_moved(E, b, i, j, k, vectors_three_in(E, 64, b), 0);
+        q = carried_moved(E, b, i, j, k, (t_r3){R(0.0), u.a0, u.a1}, 2);
+        s = carried_moved(E, b, i, j, k, (t_r3){R(0.0), R(0.0), v}, 4); x = (t_r5){r, R(0.0), R(0.0), R(0.0), R(0.0)};
+        y = (t_r5){R(0.0), r, R(0.0), R(0.0), R(0.0)}; z = (t_r5){R(0.0), R(0.0), r, R(0.0), R(0.0)};
+        t__r5_2 t_1 = carried_turned(carried_rotation(p.a0, q.a0), p, q); p = t_1.a0; q = t_1.a1;
+        t__r5_2 t_2 = carried_turned(carried_rotation(p.a0, s.a0), p, s); p = t_2.a0; s = t_2.a1;
+        t__r5_2 t_3 = carried_turned(carried_rotation(p.a0, x.a0), p, x); p = t_3.a0; x = t_3.a1;
+        t__r5_2 t_4 = carried_turned(carried_rotation(q.a1, s.a1), q, s); q = t_4.a0; s = t_4.a1;
+        t__r5_2 t_5 = carried_turned(carried_rotation(q.a1, x.a1), q, x); q = t_5.a0; x = t_5.a1;
+        t__r5_2 t_6 = carried_turned(carried_rotation(q.a1, y.a1), q, y); q = t_6.a0; y = t_6.a1;
+        t__r5_2 t_7 = carried_turned(carried_rotation(s.a2, x.a2), s, x); s = t_7.a0; x = t_7.a1;
+        t__r5_2 t_8 = carried_turned(carried_rotation(s.a2, y.a2), s, y); s = t_8.a0; y = t_8.a1;
+        t__r5_2 t_9 = carried_turned(carried_rotation(s.a2, z.a2), s, z); s = t_9.a0; z = t_9.a1;
+        one = (t_r3){p.a0, p.a1, p.a2}; two = (t_r3){R(0.0), q.a1, q.a2}; last = (t_r3){R(0.0), R(0.0), s.a2};
+        vectors_put_in(E, 64, b, one); AT2(E, 67, b) = q.a1; AT2(E, 68, b) = q.a2; AT2(E, 69, b) = s.a2;
+        AT2(E, 70, b) = p.a3; AT2(E, 71, b) = p.a4; AT2(E, 72, b) = q.a3; AT2(E, 73, b) = q.a4; AT2(E, 74, b) = s.a3;
+        AT2(E, 75, b) = s.a4;
+        columns = (t__r3_3){vectors_three_in(E, 19, i), vectors_three_in(E, 19, j), vectors_three_in(E, 19, k)};
+        a = carried_applied(columns, one); d = carried_applied(columns, two); c = carried_applied(columns, last);
+        AT2(E, 86, b) = R(sqrt(vectors_dot(one, one) + vectors_dot(two, two) + s.a2 * s.a2));
+        AT2(E, 87, b) = R(sqrt(vectors_dot(a, a) + vectors_dot(d, d) + vectors_dot(c, c)));
         if (traced) {
-            east = carried_row_of(E, 57, i, j, k); north = carried_row_of(E, 58, i, j, k);
-            m = vectors_three_in(E, 70, b); n = vectors_three_in(E, 73, b);
-            u = vectors_plus((t_r3){vectors_dot(east, s1), vectors_dot(east, s2), vectors_dot(east, s3)}, m);
-            v = vectors_plus((t_r3){vectors_dot(north, s1), vectors_dot(north, s2), vectors_dot(north, s3)}, n);
-            x = AT2(S, 115, b); y = AT2(S, 116, b); one = R(1.1102230246251565e-16) / AT2(S, 130, b);
-            error = error + (error > R(0.0) ? one * one * (x * x + y * y) : R(0.0));
-            x = AT2(E, 76, b) + (vectors_dot(u, east) + vectors_dot(m, east) + error);
-            y = AT2(E, 77, b) + (vectors_dot(v, north) + vectors_dot(n, north) + error); AT2(E, 76, b) = x;
-            AT2(E, 77, b) = y; AT2(E, 88, b) = R(sqrt(max_r(x + y, R(0.0))));
-            vectors_put_in(E, 70, b, (t_r3){vectors_dot(u, a), vectors_dot(u, d), vectors_dot(u, c)});
-            vectors_put_in(E, 73, b, (t_r3){vectors_dot(v, a), vectors_dot(v, d), vectors_dot(v, c)});
+            east = AT2(S, 115, b); north = AT2(S, 116, b); own = R(1.1102230246251565e-16) / AT2(S, 130, b);
+            error = error + (error > R(0.0) ? own * own * (east * east + north * north) : R(0.0));
+            AT2(E, 76, b) = AT2(E, 76, b) + (x.a3 * x.a3 + y.a3 * y.a3 + z.a3 * z.a3 + error);
+            AT2(E, 77, b) = AT2(E, 77, b) + (x.a4 * x.a4 + y.a4 * y.a4 + z.a4 * z.a4 + error);
+            out = p.a3 * p.a3 + q.a3 * q.a3 + s.a3 * s.a3 + p.a4 * p.a4 + q.a4 * q.a4 + s.a4 * s.a4;
+            AT2(E, 88, b) = R(sqrt(out + AT2(E, 76, b) + AT2(E, 77, b)));
         }
     }
     for (int64_t row = 0; row < 19; row++) {
@@ -4170,6 +4195,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "cdddf79fd096584b68d0d4e1599a246f9bd59d7c24556bf6cf7201db7a697e87";
+const char loops_text[] = "b3d53c3282ced08d722287de601b8f933b36daaf44b576551c0924ec9aaf6ac0";
 #endif
 #endif

@@ -120,7 +120,7 @@ def test_all_that_is_compared_in_double_double_are_long_steps():
 
 def test_what_roundings_were_seen_to_leave_counts_where_a_later_run_does_not_show_it(monkeypatch):
     """A distance may be small by chance: one of 2500 random balls was 1.5 times as far off as was asked for."""
-    apart = iter([3e-18, 2e-18, 1e-30])
+    apart = iter([3e-18, 0.0, 2e-18, 0.0, 1e-30, 0.0])  # and from a start nearby
     monkeypatch.setattr(answer, "distance", lambda *runs: np.array([next(apart)]))
     found = asked(1e-18, "state")
     first, second, third = found.attempts
@@ -276,4 +276,4 @@ def test_long_steps_in_double_double_say_how_far_they_are():
     said = []
     accurate(BALL, K, GAMMA, 1.0, 1e-18, frames=1000, progress=said.append)
     assert said[0] == said[1].rpartition(": ")[0]
-    assert {s.rpartition(": ")[2] for s in said} >= {"50%", "100%"}
+    assert {s.rpartition(": ")[2] for s in said} >= {"33%", "67%", "100%"}

@@ -11,7 +11,9 @@ up to the fifth power of h; for constant A without growth there is no growth (Pa
 φ₁ = Φφ₀ propagates two kinds of errors.  The size of a truncation error is estimated from the last columns; its
 direction is unknown, and may change little from step to step.  So three errors of this size go on as Φφ + e, one along
 each of the changes by the last three columns: then cancellation between steps is taken into account.  Rounding errors
-have random directions: the matrix S of their mean squares goes on as ΦSΦᵀ + r².
+have random directions: the matrix of their mean squares goes on as ΦSΦᵀ + r².  It is kept as a factor, S = LLᵀ, and
+[ΦL, r] is turned to a triangle: where errors grow along one direction and shrink along others, S itself would lose the
+latter to rounding, and then be wrong where these grow.
 """
 
 from math import sqrt
@@ -29,9 +31,10 @@ END = 19
 #: Rows beyond the two ends: the unit error; K, γ, the attitude and J, in all lanes; the image of a unit error at the
 #: end of the step, and its contribution to the contact point.
 UNIT, INPUT, SHAPE, FLOWN, CARRIED = 2 * END, 2 * END + 3, 2 * END + 13, 2 * END + 16, 2 * END + 19
-#: The accumulated truncation errors of φ and the contact point, three errors in three lanes.  Rows of the ball: S of φ
-#: (6), of the contact point with φ (6), of the contact point (2).  Of an accepted step: its length in the unit of time
-#: of S, its error as a fraction of each vector of `TWIST`, and the square of its rounding error.
+#: The accumulated truncation errors of φ and the contact point, three errors in three lanes.  Rows of the ball: L by
+#: columns (6), the parts of the contact point in these columns (6), and the mean squares of its others (2).  Of an
+#: accepted step: its length in the unit of time of S, its error as a fraction of each vector of `TWIST`, and the square
+#: of its rounding error.
 LEFT, ROLLED, INNER, MIXED, OUTER = CARRIED + 2, CARRIED + 5, CARRIED + 7, CARRIED + 13, CARRIED + 19
 WHOLE, PART, ROUNDED = CARRIED + 21, CARRIED + 22, CARRIED + 25
 #: The results: the lengths of φ, of δω and of the error of the contact point, and the root mean squares of the rounding
@@ -60,7 +63,7 @@ def begun(E, B, b, J, start):
         put_in(E, SHAPE, i, J)
         for row in range(LEFT, ROWS):
             E[row, i] = 0.0
-    E[INNER, b], E[INNER + 3, b], E[INNER + 5, b] = start * start, start * start, start * start
+    E[INNER, b], E[INNER + 3, b], E[INNER + 5, b] = start, start, start
 
 
 def tangent(S, E, B, at, traced):
@@ -242,41 +245,65 @@ def carry(S, E, B, traced):
     leave(S, E, B, traced)
     for b in lanes(B):
         i, j, k = b, B + b, 2 * B + b
-        # The rows of Φ, and of S.
-        a, d, c = row_of(E, FLOWN, i, j, k), row_of(E, FLOWN + 1, i, j, k), row_of(E, FLOWN + 2, i, j, k)
         error = E[ROUNDED, b]
-        s11, s12, s13 = three_in(E, INNER, b)
-        s22, s23, s33 = three_in(E, INNER + 3, b)
-        s1, s2, s3 = (s11, s12, s13), (s12, s22, s23), (s13, s23, s33)
-        p1 = dot(a, s1), dot(a, s2), dot(a, s3)
-        p2 = dot(d, s1), dot(d, s2), dot(d, s3)
-        p3 = dot(c, s1), dot(c, s2), dot(c, s3)
-        e11, e12, e13 = dot(p1, a) + error, dot(p1, d), dot(p1, c)
-        e22, e23, e33 = dot(p2, d) + error, dot(p2, c), dot(p3, c) + error
-        put_in(E, INNER, b, (e11, e12, e13))
-        put_in(E, INNER + 3, b, (e22, e23, e33))
-        rounded = 0.0
-        for n in range(3):
-            x, y, z = row_of(E, END + SPUN + n, i, j, k)
-            rounded += x * (x * e11 + 2.0 * (y * e12 + z * e13)) + y * (y * e22 + 2.0 * z * e23) + z * z * e33
-        E[FOUND + 3, b], E[FOUND + 4, b] = sqrt(e11 + e22 + e33), sqrt(max(rounded, 0.0))
+        r, u, v = sqrt(error), (E[INNER + 3, b], E[INNER + 4, b]), E[INNER + 5, b]
+        p = moved(E, b, i, j, k, three_in(E, INNER, b), 0)
+        q = moved(E, b, i, j, k, (0.0, u[0], u[1]), 2)
+        s = moved(E, b, i, j, k, (0.0, 0.0, v), 4)
+        x, y, z = (r, 0.0, 0.0, 0.0, 0.0), (0.0, r, 0.0, 0.0, 0.0), (0.0, 0.0, r, 0.0, 0.0)
+        p, q = turned(rotation(p[0], q[0]), p, q)
+        p, s = turned(rotation(p[0], s[0]), p, s)
+        p, x = turned(rotation(p[0], x[0]), p, x)
+        q, s = turned(rotation(q[1], s[1]), q, s)
+        q, x = turned(rotation(q[1], x[1]), q, x)
+        q, y = turned(rotation(q[1], y[1]), q, y)
+        s, x = turned(rotation(s[2], x[2]), s, x)
+        s, y = turned(rotation(s[2], y[2]), s, y)
+        s, z = turned(rotation(s[2], z[2]), s, z)
+        one, two, last = (p[0], p[1], p[2]), (0.0, q[1], q[2]), (0.0, 0.0, s[2])
+        put_in(E, INNER, b, one)
+        E[INNER + 3, b], E[INNER + 4, b], E[INNER + 5, b] = q[1], q[2], s[2]
+        E[MIXED, b], E[MIXED + 1, b], E[MIXED + 2, b], E[MIXED + 3, b] = p[3], p[4], q[3], q[4]
+        E[MIXED + 4, b], E[MIXED + 5, b] = s[3], s[4]
+        columns = three_in(E, END + SPUN, i), three_in(E, END + SPUN, j), three_in(E, END + SPUN, k)
+        a, d, c = applied(columns, one), applied(columns, two), applied(columns, last)
+        E[FOUND + 3, b] = sqrt(dot(one, one) + dot(two, two) + s[2] * s[2])
+        E[FOUND + 4, b] = sqrt(dot(a, a) + dot(d, d) + dot(c, c))
         if traced:
-            east, north = row_of(E, CARRIED, i, j, k), row_of(E, CARRIED + 1, i, j, k)
-            m, n = three_in(E, MIXED, b), three_in(E, MIXED + 3, b)
-            # u = C S + X for each of the two coordinates, used for the mixed and the outer mean squares.
-            u = plus((dot(east, s1), dot(east, s2), dot(east, s3)), m)
-            v = plus((dot(north, s1), dot(north, s2), dot(north, s3)), n)
             # Far from the origin the contact point has rounding errors of its own.
-            x, y, one = S[MOVED + SPOT, b], S[MOVED + SPOT + 1, b], UNIT_ROUNDING / S[RADIUS, b]
-            error += one * one * (x * x + y * y) if error > 0.0 else 0.0
-            x = E[OUTER, b] + (dot(u, east) + dot(m, east) + error)
-            y = E[OUTER + 1, b] + (dot(v, north) + dot(n, north) + error)
-            E[OUTER, b], E[OUTER + 1, b], E[FOUND + 5, b] = x, y, sqrt(max(x + y, 0.0))
-            put_in(E, MIXED, b, (dot(u, a), dot(u, d), dot(u, c)))
-            put_in(E, MIXED + 3, b, (dot(v, a), dot(v, d), dot(v, c)))
+            east, north, own = S[MOVED + SPOT, b], S[MOVED + SPOT + 1, b], UNIT_ROUNDING / S[RADIUS, b]
+            error += own * own * (east * east + north * north) if error > 0.0 else 0.0
+            E[OUTER, b] += x[3] * x[3] + y[3] * y[3] + z[3] * z[3] + error
+            E[OUTER + 1, b] += x[4] * x[4] + y[4] * y[4] + z[4] * z[4] + error
+            out = p[3] * p[3] + q[3] * q[3] + s[3] * s[3] + p[4] * p[4] + q[4] * q[4] + s[4] * s[4]
+            E[FOUND + 5, b] = sqrt(out + E[OUTER, b] + E[OUTER + 1, b])
     for row in range(END):
         for i in lanes(LANES * B):
             E[row, i] = E[END + row, i]
+
+
+def moved(E, b, i, j, k, l, n):
+    """A column of L after a step, and the parts of the contact point in it, of which the former are at MIXED + n."""
+    v = applied((three_in(E, FLOWN, i), three_in(E, FLOWN, j), three_in(E, FLOWN, k)), l)
+    x = E[MIXED + n, b] + dot(row_of(E, CARRIED, i, j, k), l)
+    y = E[MIXED + n + 1, b] + dot(row_of(E, CARRIED + 1, i, j, k), l)
+    return v[0], v[1], v[2], x, y
+
+
+def rotation(x, y):
+    """The cosine and the sine of the rotation that turns (x, y) to (√(x² + y²), 0)."""
+    size = sqrt(x * x + y * y)
+    over = size if size > 0.0 else 1.0
+    return x / over if size > 0.0 else 1.0, y / over
+
+
+def turned(by, p, q):
+    """Two columns of five numbers, rotated into each other."""
+    c, s = by
+    return (
+        (c * p[0] + s * q[0], c * p[1] + s * q[1], c * p[2] + s * q[2], c * p[3] + s * q[3], c * p[4] + s * q[4]),
+        (c * q[0] - s * p[0], c * q[1] - s * p[1], c * q[2] - s * p[2], c * q[3] - s * p[3], c * q[4] - s * p[4]),
+    )
 
 
 def row_of(E, at, i, j, k):

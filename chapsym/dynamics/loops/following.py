@@ -21,7 +21,7 @@ from chapsym.generated import angular_velocity, compose, rotate
 from . import lanes as at
 from . import loop
 from .carried import END as LAST_END
-from .carried import FOUND, GRADIENT, PART, SWAY, UNIT_ROUNDING, WHOLE, begun, carry, changes, tangent
+from .carried import FLOW, FOUND, GRADIENT, PART, SWAY, UNIT_ROUNDING, WHOLE, begun, carry, changes, tangent
 from .carried import ROUNDED as ROUNDING
 from .carried import ROWS as ERRORS
 from .carried import SPUN as BY_ATTITUDE
@@ -215,9 +215,9 @@ ROUNDINGS = 27.1
 #: The rounding error of a long step as a fraction of the effect on ω of rounding K, if that exceeds the root of the
 #: condition: the largest error for 2000 starts of heavy balls was then 0.51 of its estimate.
 ACROSS = 0.25
-#: The rounding error of a step, over `SIGMAS`, in a rotation that is steady to `carried.STEADY`: equal steps have equal
-#: rounding errors, which add up.  The largest of 300 steps of |ω|h = 1.7 was 293 times 2⁻⁵³.
-ROUNDED_ALIKE = 150.0 * 2.0**-53
+#: The rounding error of a step, over `SIGMAS`, in a rotation that is steady to `EVEN`, the sine of the angle from ω to
+#: Λω: equal steps have equal rounding errors, which add up.  The largest of 300 steps of |ω|h = 1.7 was 293 times 2⁻⁵³.
+ROUNDED_ALIKE, EVEN = 150.0 * 2.0**-53, 1e-2
 #: The fraction of an accuracy that the interpolation of frames may use.
 BEARABLE = 0.4
 #: Steps end at a frame if this leaves them at least this fraction of their length: interpolation costs as much.
@@ -455,7 +455,9 @@ def looked_at(crew, B, b, lost, traced, sums, asked):
         lane[SMOOTH], lane[SETTLED] = min(HOPE * lane[SMOOTH], ANYTHING), min(HOPE * lane[SETTLED], ANYTHING)
         # The effect on ω of rounding K changes as the body turns.
         rounding = ROUNDINGS * max(start, 2.0 * UNIT_ROUNDING * ACROSS * E[SWAY, b])
-        if E[GRADIENT, b] == 0.0 and E[GRADIENT + 1, b] == 0.0 and E[GRADIENT + 2, b] == 0.0:
+        w, s, heavy = three_in(E, FLOW, b), three_in(E, GRADIENT, b), S[at.BALL + 3, b]
+        m = w[0] * (S[at.BALL, b] + heavy), w[1] * (S[at.BALL + 1, b] + heavy), w[2] * (S[at.BALL + 2, b] + heavy)
+        if dot(s, s) <= EVEN * EVEN * (dot(m, m) * dot(w, w)):
             # The square of a sum of n equal rounding errors is n² times the square of one: the n-th adds 2n - 1 times.
             lane[ALIKE_STEPS] += 1.0
             rounding = max(rounding, ROUNDED_ALIKE) * sqrt(2.0 * lane[ALIKE_STEPS] - 1.0)
