@@ -469,12 +469,11 @@ def increment() -> list[Identity]:
         identity("γ and γ~ are (C1 cn, C2 sn, C3 dn) of one curve", on_curve, [1] * 4),
         defines,
         identity("2𝒟 sn²δu = ϰVw (5.13-V)", 2 * parts.scale * parts.y, kappa * parts.vw),
-        identity("(Vw)² = V² sn² cn² dn²", parts.vw**2,
-                 printed_v * parts.y * (1 - parts.y) * (1 - k2 * parts.y)),
+        identity("(Vw)² = V² sn² cn² dn²", parts.vw**2, printed_v * parts.y * (1 - parts.y) * (1 - k2 * parts.y)),
         identity("Π1 = (l - μ sn²)/𝒟", s @ (s * inverse) / 4, parts.level / parts.scale),
         identity("Π2 𝒟² sn² = G𝒟 - (Vw)²/sn²", rest @ inverse**2, -(parts.vw**2) / parts.y),
         relation_for_the_increment(),
-    ]  # fmt: skip
+    ]
 
 
 def relation_for_the_increment(contact: int = 1, sign: int = 1) -> Identity:

@@ -23,7 +23,7 @@ QUESTIONS = {
         "energy in the continuous limit.”",
         "Section 6, the fourth paragraph",
     ),
-}  # fmt: skip
+}
 
 #: Parts of the proofs of the questions themselves.
 BOXES, FLAT, ROUND = "5.9-open: certificates", "5.9-open: D = 0", "5.9-open: two equal moments"
