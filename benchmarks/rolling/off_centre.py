@@ -44,7 +44,7 @@ from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.dynamics.errors import TooWide
 from chapsym.dynamics.flow.deviation import UNIT, bound, exact
 from chapsym.dynamics.flow.start import ball, balls
-from chapsym.dynamics.levels.balls import log_radius
+from chapsym.dynamics.levels.balls import log2_of
 from chapsym.dynamics.levels.proved_root import MATRIX_BITS, lowest, unit, upper
 from chapsym.dynamics.loops.vectors import cross, dot
 from chapsym.dynamics.principal_axes import quaternions
@@ -144,7 +144,7 @@ class Path:
     @property
     def width(self) -> float:
         """The logarithm to base 2 of how far the axes may be off."""
-        return log_radius(arb(0, self.last.a))
+        return log2_of(arb(0, self.last.a).rad())
 
     def advance(self, end: Fraction) -> None:
         """Goes on to a later time, or a part of the way; raises TooWide where the balls allow no proof."""

@@ -213,13 +213,13 @@ def _orbit(
 
 def errors_of(balls: np.ndarray, given: Any, bits: int) -> Floats:
     """Upper bounds of |given - ball| for each frame, (..., frames); NaN where there is no frame."""
-    from flint import arb, fmpq
+    from .levels.balls import exact
+    from .levels.proved_root import upper
 
-    def bound(frame: np.ndarray, exact: np.ndarray) -> float:
-        if any(x is None for x in exact) or any(not hasattr(x, "rad") for x in frame):
+    def bound(frame: np.ndarray, ours: np.ndarray) -> float:
+        if any(x is None for x in ours) or any(not hasattr(x, "rad") for x in frame):
             return math.nan
-        off = [(x - arb(fmpq(y.numerator, y.denominator))).abs_upper() for x, y in zip(frame, exact, strict=True)]
-        length = sum((x * x for x in off), arb(0)).sqrt().abs_upper()
+        length = upper(x - exact(y) for x, y in zip(frame, ours, strict=True))
         return math.nextafter(float(length), math.inf) if length > 0 else 0.0
 
     width = balls.shape[-1]

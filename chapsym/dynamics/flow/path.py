@@ -19,7 +19,7 @@ from chapsym import generated
 from chapsym.numbers.precisions import flint_bits, flint_terms
 
 from ..errors import TooWide
-from ..levels.balls import Spread, point, unit
+from ..levels.balls import Spread, log2_of, point, unit
 from ..levels.balls import exact as ball
 from ..levels.proved_root import MATRIX_BITS, Vector, highest, upper
 from ..levels.start import exponent_of
@@ -137,7 +137,7 @@ class Path:
         self.precision, self.time, self.steps = precision, Fraction(0), 0
         self.tick: Callable[[], None] = lambda: None
         self.given: Callable[[dict[str, Vector]], dict[str, Vector]] = lambda frame: frame
-        self.scale = arb(2) ** _exponent(highest(*moments(J)) + D)
+        self.scale = arb(2) ** log2_of(highest(*moments(J)) + D)
         self.body = Body(tuple(x / self.scale for x in J), D / self.scale, tuple(x / self.scale for x in rotor))
         self.k = generated.rotate(*(*unit(attitude), *(x / self.scale for x in K)))
         self.p, far = point(unit(attitude))
@@ -152,7 +152,7 @@ class Path:
     @property
     def width(self) -> float:
         """The logarithm to base 2 of a bound of the error of the attitude."""
-        return _log(self.spread.size)
+        return log2_of(self.spread.size)
 
     def advance(self, end: Fraction) -> None:
         """Advances to a later time, or a part of the way; raises TooWide if the balls allow no proof."""
@@ -222,7 +222,7 @@ class Path:
             bits = min(bits + BEYOND, self.precision)
             with flint_bits(bits):
                 found = defects(p, w, k, body, self._terms(degree, bits) - 1)
-                before, size = size, _log(bound([*found.e, *found.kappa]))
+                before, size = size, log2_of(bound([*found.e, *found.kappa]))
             if bits == self.precision:
                 stuck += size > before - 2
                 if size <= LEFT - self.precision or stuck > STUCK:
@@ -290,17 +290,6 @@ def _polys(rows: np.ndarray) -> list[arb_poly]:
     high = rows.astype(float)
     rest = (rows - high).astype(float)
     return [arb_poly(x.tolist()) + arb_poly(y.tolist()) for x, y in zip(high, rest, strict=True)]
-
-
-def _exponent(x: arb) -> int:
-    """About the logarithm to base 2 of a ball."""
-    man, exp = x.mid().man_exp()
-    return int(exp) + int(man).bit_length()
-
-
-def _log(x: arb) -> float:
-    """The logarithm to base 2 of a bound, rounded up."""
-    return _exponent(x) if x > 0 else -math.inf
 
 
 def _turn(a: np.ndarray, k: np.ndarray, J: np.ndarray, D: float, rotor: np.ndarray) -> float:

@@ -9,7 +9,7 @@ from numbers import Rational
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import acb_mat, arb, fmpq
+from flint import acb_mat, arb
 
 from chapsym import generated
 from chapsym.numbers import is_a
@@ -17,6 +17,7 @@ from chapsym.rationals import NotANumber, exact_fraction, rational
 
 from ..ball import brief
 from ..errors import BadInput, TooWide
+from ..levels.balls import exact
 from ..levels.proved_root import Vector, unit
 from ..levels.start import least
 from ..loops.vectors import cross
@@ -41,7 +42,7 @@ def ball(x: Number) -> arb:
     if isinstance(x, Turns):
         found = ball(x.rational)
         return found + ball(x.of_pi) * arb.pi() if x.of_pi else found
-    return arb(fmpq(x.numerator, x.denominator))
+    return exact(x)
 
 
 def balls(v: Sequence[Number]) -> Vector:

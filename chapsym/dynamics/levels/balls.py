@@ -614,7 +614,7 @@ class ArbBall(_UnderWay):
     def bits(self) -> float:
         """The correct bits of 𝒦, γ and the attitude, each relative to the length of its vector."""
         vectors = *self._all(), self._attitude() if self.a else ()
-        widest = [max(map(log_radius, v), default=-math.inf) for v in vectors]
+        widest = [max((log2_of(x.rad()) for x in v), default=-math.inf) for v in vectors]
         return -max(widest[0] - self.size, *widest[1:])
 
     def frame(self, bits: int) -> tuple[Vector, Vector, Vector, Vector]:
@@ -647,7 +647,7 @@ def size_of(K: Exact, exponent: int) -> int:
     return exponent_of(max(map(abs, K))) - exponent - 1
 
 
-def log_radius(x: arb) -> float:
-    """The logarithm to base 2 of the radius, rounded up."""
-    man, exp = map(int, x.rad().man_exp())
-    return exp + man.bit_length() if man else -math.inf
+def log2_of(x: arb) -> float:
+    """The logarithm to base 2 of the midpoint of a ball, rounded up; -inf if that is not positive."""
+    man, exp = map(int, x.mid().man_exp())
+    return exp + man.bit_length() if man > 0 else -math.inf

@@ -31,7 +31,7 @@ from chapsym.numbers.precisions import flint_bits
 from ..ball import Asked, Ball
 from ..errors import BadInput, StepNotTaken
 from ..levels.balls import exact
-from ..levels.proved_root import Vector, enclosed
+from ..levels.proved_root import Vector, enclosed, unit
 from ..levels.start import fraction
 from ..map import in_float64, step, unit_exactly
 from .candidates import Quadric, momentum_forms, quadrics
@@ -380,10 +380,9 @@ def _enclosures(points: Points, precision: Precision, given: Sequence[Sequence[F
 
 def _branch(coordinates: tuple, multiplicity: int) -> Branch:
     """The rotation with these homogeneous coordinates."""
-    length = sum((c * c for c in coordinates), arb(0)).sqrt()
     leading = next(c for c in coordinates if not c.is_zero())
     sign = -1 if leading < 0 else 1
-    q = tuple(arb(0) if c.is_zero() else sign * c / length for c in coordinates)
+    q = tuple(sign * c for c in unit(coordinates))
     sine = arb(0) if all(c.is_zero() for c in q[1:]) else sum((c * c for c in q[1:]), arb(0)).sqrt()
     return Branch(q, 2 * arb.atan2(sine, q[0]), multiplicity)
 
