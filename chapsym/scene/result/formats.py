@@ -14,6 +14,7 @@ import warnings
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator, Mapping
+from itertools import takewhile
 from pathlib import Path
 from struct import unpack_from
 from tokenize import TokenError
@@ -30,7 +31,7 @@ from ..read.errors import Data, SceneError
 from .digests import disputed, read_object
 
 if TYPE_CHECKING:
-    from pyarrow import DataType, Table
+    from pyarrow import Table
     from xarray import Dataset
 
     from chapsym.dynamics.labelled import Column, Structure
@@ -317,9 +318,6 @@ def _read_parquet(path: Path) -> "Dataset":
 
 
 def _read_csv(path: Path) -> "Dataset":
-    import pyarrow
-    from pyarrow.csv import ConvertOptions, ParseOptions, ReadOptions, read_csv
-
     with path.open(encoding="utf-8", newline="") as stream:
         first = stream.readline(files.MOST_LINE)
     if first.strip() and not is_ours(first):
@@ -329,12 +327,10 @@ def _read_csv(path: Path) -> "Dataset":
         return _with_lines(path)
     about = _about_csv(path)
     if not about:
-        return _old(_columns(read_csv(path)))
+        return _old(_rows(path, {}))
     layout = about["structure"]
     rows = {name: one for name, one in layout["variables"].items() if in_rows(one)}
-    types = _types(rows) | {NOTES: pyarrow.string()}
-    reading, parsing = ReadOptions(block_size=BLOCK), ParseOptions(newlines_in_values=True)
-    columns = _columns(read_csv(path, reading, parsing, ConvertOptions(column_types=types)))
+    columns = _rows(path, rows)
     notes = [json.loads(text) for text in columns[NOTES][:: layout["frames"]]]
     for name, one in layout["variables"].items():
         if name not in rows:
@@ -356,28 +352,24 @@ def _about_csv(path: Path) -> Data:
         csv.field_size_limit(limit)  # a setting of the whole process
 
 
-def _types(variables: "Mapping[str, Column]") -> "dict[str, DataType]":
+def _rows(path: Path, variables: "Mapping[str, Column]", lines: int = 0) -> dict[str, np.ndarray]:
+    """The columns of a CSV below some lines: notes as text, variables in their types, the others as they look."""
     import pyarrow
+    from pyarrow.csv import ConvertOptions, ParseOptions, ReadOptions, read_csv
 
-    return {column: pyarrow.type_for_alias(one["type"]) for one in variables.values() for column in one["columns"]}
+    types = {column: pyarrow.type_for_alias(one["type"]) for one in variables.values() for column in one["columns"]}
+    reading, parsing = ReadOptions(block_size=BLOCK, skip_rows=lines), ParseOptions(newlines_in_values=True)
+    kinds = ConvertOptions(column_types=types | {NOTES: pyarrow.string()})
+    return _columns(read_csv(path, reading, parsing, kinds))
 
 
 def _with_lines(path: Path) -> "Dataset":
     """A file of before: what no row has is in `# ` lines, and what a ball has once in each of its rows."""
-    from pyarrow.csv import ConvertOptions, ParseOptions, ReadOptions, read_csv
-
-    attrs: Data = {}
-    lines = 0
     with path.open(encoding="utf-8", newline="") as stream:
-        while (line := stream.readline()).startswith("# "):
-            key, _, value = line[2:].partition(": ")
-            attrs[key], lines = json.loads(value), lines + 1
+        notes = [line[2:].partition(": ") for line in takewhile(lambda line: line.startswith("# "), stream)]
+    attrs: Data = {key: json.loads(value) for key, _, value in notes}
     layout = attrs.pop("structure")
-    table = read_csv(
-        path, ReadOptions(skip_rows=lines), ParseOptions(newlines_in_values=True),
-        ConvertOptions(column_types=_types(layout["variables"])),
-    )  # fmt: skip
-    return _assembled(_columns(table), layout, attrs)
+    return _assembled(_rows(path, layout["variables"], len(notes)), layout, attrs)
 
 
 def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
