@@ -11,7 +11,7 @@ from zarr.storage import LocalStore
 from chapsym import files
 
 from ..read.errors import SceneError
-from .digests import digests, metadata, read_object, sound
+from .digests import checksums, metadata, read_object, sound
 
 #: The codecs of bytes; the last one adds the checksum.
 COMPRESSORS = (ZstdCodec(), Crc32cCodec())
@@ -26,9 +26,9 @@ class CheckedStore(LocalStore):
         return frozenset(name for name, one in metadata(self.root).items() if "crc32c" in json.dumps(one))
 
     @cached_property
-    def _digests(self) -> dict[str, dict[str, str]]:
-        """The checksums of the chunks of each array of a complete result."""
-        return {name: digests(self.root / name) for name in self._checked} if self._complete else {}
+    def _digests(self) -> dict[str, str]:
+        """The checksums of the chunks of a complete result."""
+        return checksums(self.root) if self._complete else {}
 
     @cached_property
     def _complete(self) -> bool:
@@ -48,7 +48,7 @@ class CheckedStore(LocalStore):
         if chunk.split("/")[0] == "c" and name in self._checked:
             if found is None and self._complete:
                 raise SceneError(f"{self.root / key} is missing: {mended(self.root)}")
-            if found is not None and not sound(found.to_bytes(), self._digests.get(name, {}).get(chunk)):
+            if found is not None and not sound(found.to_bytes(), self._digests.get(key)):
                 raise SceneError(f"{self.root / key} is damaged: {mended(self.root)}")
         return found
 

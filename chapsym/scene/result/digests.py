@@ -52,21 +52,21 @@ def written(array: Path) -> dict[str, Path]:
     return {key: file for key, file in sorted(found.items()) if key.split("/")[0] == "c"}
 
 
-def digests(array: Path) -> dict[str, str]:
-    """The checksums of the chunks of an array by their keys, from `write_digests`; none if there is no list.
-
-    If the list is that of another array, all are wrong.
-    """
-    found = read_object(array / DIGESTS)
-    listed = found["crc32c"] if isinstance(found.get("crc32c"), dict) else {}
-    return listed if found.get("array") == array.name else dict.fromkeys(listed, "")
-
-
 def write_digests(path: Path) -> None:
     """Lists the checksums of the chunks of each array of a group; raises CannotWrite or OSError."""
     for array in folders(path):
         found = {key: digest(file) for key, file in written(array).items()}
         files.write_text(array / DIGESTS, json.dumps({"array": array.name, "crc32c": found}, indent=1))
+
+
+def checksums(path: Path) -> dict[str, str]:
+    """The checksums that `write_digests` lists, by the keys of the chunks in the group; "" if of another array."""
+    found = dict[str, str]()
+    for array in folders(path):
+        own = read_object(array / DIGESTS)
+        sums = own["crc32c"] if isinstance(own.get("crc32c"), dict) else {}
+        found |= {f"{array.name}/{key}": sums[key] if own.get("array") == array.name else "" for key in sums}
+    return found
 
 
 def folders(path: Path) -> list[Path]:

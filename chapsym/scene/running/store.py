@@ -29,7 +29,7 @@ from ..read.errors import Data, SceneError
 from ..read.task import Columns
 from ..result import formats
 from ..result.dataset import OF_BALLS, arrays, layout, provenance
-from ..result.digests import digest, digests, folders, is_sound, read_object, said, write_digests
+from ..result.digests import checksums, digest, is_sound, read_object, said, write_digests
 from ..result.formats import DAMAGED, attributes, check_ours, plain
 
 if TYPE_CHECKING:
@@ -96,15 +96,11 @@ class Store:
         """Whether, when the store was opened, every unit was there as it was written."""
         if not self._says_complete or not self._described():
             return False
-        self._digests = self._listed()
+        self._digests = checksums(self.path)
         every = range(len(self.plan.segments))
         if any(self._damage(chunk, every) for chunk in range(len(self.plan.chunks))):
             return False
         return all(self._has(name, values) for name, values in self._coordinates().items())
-
-    def _listed(self) -> dict[str, str]:
-        """The checksums that a complete store lists."""
-        return {f"{one.name}/{key}": sum_ for one in folders(self.path) for key, sum_ in digests(one).items()}
 
     def start(self, chunk: int) -> tuple[int, State | None]:
         """The number of finished segments of a chunk, and the state after them; 0 and None if there are none."""
@@ -225,7 +221,7 @@ class Store:
                 group[name].with_config({"write_empty_chunks": True})[...] = values
             if not self._says_complete:
                 return
-            self._digests = self._listed()
+            self._digests = checksums(self.path)
             every = range(len(self.plan.segments))
             for chunk, balls in enumerate(self.plan.chunks):
                 if found := self._damage(chunk, every):
