@@ -237,7 +237,6 @@ def trajectory(
     frame = dispatch.begun(precision, balls, steps // every + 1, first, is_flag(attitude))
     bounds = None
     if flag(proved, "proved"):
-        dispatch.provable(precision)
         bounds = dispatch.run_proved(precision, balls, steps, every, frame, order, threads, progress)
         bounds = Bounds(*(None if x is None else in_shape(shape, x) for x in vars(bounds).values()))  # type: ignore[arg-type]
     else:

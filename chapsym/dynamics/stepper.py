@@ -427,7 +427,7 @@ class Proof:
         self._spread = np.array([[proved.PAIR] * 4, [np.inf] * 4])
         stages = double_double.coefficients(ball.order)
         self._run = double_double.OneBall(self._balls, 0, self._frames, stages, proves=True)
-        self._run.begin_at(spot)
+        self._run.moving.contact[::2] = spot  # the high halves
 
     def _rows(self, precision: str, attitude: Asked) -> Any:
         """Buffers for the start and the present state."""

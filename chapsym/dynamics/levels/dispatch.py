@@ -78,8 +78,13 @@ def run_proved(
 ) -> Bounds:  # fmt: skip
     """`run` in float64 or double-double, with proved bounds of the errors of its frames, (n, frames) each.
 
-    A run in double-double carries the proof; a run in float64 is compared with it.
+    A run in double-double carries the proof; a run in float64 is compared with it.  Raises BadInput for others.
     """
+    if not isinstance(precision, Double | DoubleDouble):
+        raise BadInput(
+            'proved=True takes the precisions "double" and "double-double"; Enclosure(bits) is a proof of its own, and '
+            "`certify` bounds what a run at any other is off by"
+        )
     n, count, stages = *frames.momentum.shape[:2], len(substeps(order))
     pairs = frames
     try:
@@ -97,15 +102,6 @@ def run_proved(
     first = np.where(open_at.any(axis=1), open_at.argmax(axis=1), count)
     bounds = dict(zip(("momentum", "gamma", "attitude", "contact"), found, strict=True))
     return Bounds(**bounds, steps=np.maximum(first - 1, 0) * every)
-
-
-def provable(precision: Precision) -> None:
-    """Raises BadInput for a precision without proved bounds."""
-    if not isinstance(precision, Double | DoubleDouble):
-        raise BadInput(
-            'proved=True takes the precisions "double" and "double-double"; Enclosure(bits) is a proof of its own, and '
-            "`certify` bounds what a run at any other is off by"
-        )
 
 
 #: The bits of a small rotation beyond those that its size costs.

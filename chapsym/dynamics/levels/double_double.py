@@ -117,10 +117,6 @@ class OneBall:
         self._tracks = frames.of(i), frames.halves.of(i)
         self._proof = proved.begun(state, stages, beyond) if proves else (np.empty((0, 2)), np.empty(0))
 
-    def begin_at(self, spot: Floats) -> None:
-        """Starts at a contact point that is not (0, 0)."""
-        self.moving.contact[::2] = spot
-
     def lose(self) -> None:
         """Gives up the proof from this step on."""
         self._proof[1][loops_proved.BALL] = np.inf
