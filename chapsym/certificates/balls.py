@@ -2,6 +2,7 @@
 
 import itertools
 from collections.abc import Iterable, Sequence
+from decimal import Decimal
 from fractions import Fraction
 
 from flint import arb, ctx
@@ -47,9 +48,7 @@ def decimal(x: Fraction, digits: int) -> str:
     """A multiple of 10^-digits with this many decimals."""
     scaled = x * 10**digits
     assert scaled.denominator == 1, "not rounded"
-    whole = str(abs(scaled.numerator)).rjust(digits + 1, "0")
-    text = f"{whole[:-digits]}.{whole[-digits:]}" if digits else whole
-    return f"-{text}" if x < 0 else text
+    return f"{Decimal(f'{scaled}e-{digits}'):f}"
 
 
 def decimals(x: Fraction) -> int | None:
@@ -71,9 +70,3 @@ def shortest(x: Fraction) -> str:
     if digits is None:
         return str(x)
     return f"1e-{digits}" if digits and x * 10**digits == 1 else decimal(x, digits)
-
-
-def decade(x: Fraction) -> int:
-    """The exponent n with 10ⁿ ≤ x < 10ⁿ⁺¹, of x > 0."""
-    n = len(str(x.numerator)) - len(str(x.denominator))
-    return n if x >= Fraction(10) ** n else n - 1

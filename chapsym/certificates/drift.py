@@ -17,8 +17,9 @@ from chapsym.checker.interval import Interval
 from chapsym.checker.linear import Vector
 from chapsym.checker.taylor import Model
 from chapsym.dynamics import BadInput
+from chapsym.dynamics.levels.start import decade
 
-from .balls import decade, shortest
+from .balls import shortest
 from .document import Document, accepted, stated
 
 KIND = "energy-drift"

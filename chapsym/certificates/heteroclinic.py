@@ -16,10 +16,10 @@ from chapsym.checker.document import MOST_DIGITS
 from chapsym.checker.heteroclinic import MOST_STEPS
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import exact
-from chapsym.dynamics.levels.start import fraction
+from chapsym.dynamics.levels.start import decade, fraction
 from chapsym.numbers.precisions import flint_bits
 
-from .balls import decade, decimal, shortest
+from .balls import decimal, shortest
 from .document import Document, accepted, stated, widest
 from .reduced import Top
 

@@ -21,11 +21,11 @@ from chapsym.checker.circle import Circle
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.checker.measure import branch_of, tangent
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.start import fraction
+from chapsym.dynamics.levels.start import decade, fraction
 from chapsym.numbers.precisions import flint_bits
 
 from . import resonance
-from .balls import NotProved, decade, decimals, rounded, shortest
+from .balls import NotProved, decimals, rounded, shortest
 from .document import Document, accepted, stated, widest
 from .reduced import Reduced, Top, Vector, cross
 from .resonance import Resonance, spare_bits

@@ -11,10 +11,10 @@ from chapsym.dynamics import BadInput
 from chapsym.dynamics.enclosed_motion import CertifiedMotion
 from chapsym.dynamics.flow.start import Principal, Start, balls
 from chapsym.dynamics.levels.balls import unit
-from chapsym.dynamics.levels.start import fraction
+from chapsym.dynamics.levels.start import decade, fraction
 from chapsym.numbers.precisions import flint_bits
 
-from .balls import decade, shortest
+from .balls import shortest
 from .document import Document, first_accepted, stated
 
 KIND = "motion"

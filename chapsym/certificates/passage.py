@@ -12,7 +12,7 @@ from fractions import Fraction
 from flint import arb, arb_mat, ctx
 
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.balls import exact
+from chapsym.dynamics.levels.balls import cross_matrix, exact
 from chapsym.dynamics.levels.proved_root import certified, inverse_slope, newton_enclosure, upper
 from chapsym.dynamics.loops.vectors import cross, dot
 from chapsym.generated import compose, gibbs_residual
@@ -52,7 +52,7 @@ class Passage:
 
     def slope(self) -> arb_mat:
         """The derivative of `error` by the four variations: dp = ½ω∘p."""
-        return (self.quaternion[0] * identity() - hat(self.quaternion[1:])) * self.change / 2
+        return (self.quaternion[0] * identity() - cross_matrix(self.quaternion[1:])) * self.change / 2
 
     def derivative(self) -> arb_mat:
         """W, with DG^q(w × 𝒦, w × γ) = (Ww × 𝒦', Ww × γ') at the end (𝒦', γ')."""
@@ -82,13 +82,13 @@ class Map:
         for _ in range(steps):
             k, v = [x / 2 for x in K.entries()], g.entries()
             u, inverse = self.root(k, v)
-            U, norm = hat(u), 1 + dot(u, u)
+            U, norm = cross_matrix(u), 1 + dot(u, u)
             step = identity() + (U * U - U) * (2 / norm)
             # Differential of G(u) = 0, |γ| = 1: ∂G du = ½(1 + |u|²)d𝒦 + D(⟨dγ, u⟩γ + ⟨γ, u⟩dγ); then dΩᵀΩ = [ω]×.
             du = inverse * (dK * (norm / 2) + (g * (column(u).transpose() * dg) + dg * dot(v, u)) * self.D)
             omega = (U - identity()) * du * (2 / norm)
             K, g, turned, change = step * K, step * g, step * turned, step * change + omega
-            dK, dg = step * dK - hat(K.entries()) * omega, step * dg - hat(g.entries()) * omega
+            dK, dg = step * dK - cross_matrix(K.entries()) * omega, step * dg - cross_matrix(g.entries()) * omega
             length = norm.sqrt()
             quaternion = compose(*(*(x / length for x in (arb(1), *(-y for y in u))), *quaternion))
             gibbs.append(u)
@@ -107,7 +107,7 @@ class Map:
         """d𝒦, dγ and ω of the four variations at the start."""
         towards: Vector = cross(cross(momentum, gamma), momentum)
         dK, dg = (
-            arb_mat([[*row, x] for row, x in zip((-1 * hat(v)).tolist(), last, strict=True)])
+            arb_mat([[*row, x] for row, x in zip((-1 * cross_matrix(v)).tolist(), last, strict=True)])
             for v, last in ((momentum, towards), (gamma, [arb(0)] * 3))
         )
         return dK, dg, arb_mat(3, 4)
@@ -126,8 +126,3 @@ def columns(m: arb_mat, count: int) -> arb_mat:
 def identity() -> arb_mat:
     """The unit matrix."""
     return arb_mat([[int(i == j) for j in range(3)] for i in range(3)])
-
-
-def hat(v: Vector) -> arb_mat:
-    """[v]×, the matrix of the vector product."""
-    return arb_mat([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])

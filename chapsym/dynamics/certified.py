@@ -11,7 +11,6 @@ import numpy as np
 
 from chapsym.numbers import Enclosure
 from chapsym.numbers.precisions import MOST_BITS, flint_bits, is_a, plain_text
-from chapsym.rationals import decimals
 
 from .ball import Asked, Floats, batch, brief, callback, in_shape
 from .coefficients import COMPOSITIONS
@@ -19,7 +18,7 @@ from .errors import BadInput, Status
 from .levels import dispatch
 from .levels.frames import Balls, Frames
 from .levels.frames import exactly as exact_numbers
-from .levels.start import fraction
+from .levels.start import decade, fraction
 from .map import whole_number
 from .results import Trajectory
 from .shown import Brief
@@ -235,18 +234,13 @@ def proved_digits(x: object) -> str:
     middle, radius = fraction(x), fraction(x.rad())
     low, high = middle - radius, middle + radius
     if low <= 0 <= high:
-        return "0" if radius == 0 else f"0E{_decade(max(-low, high)) + 1}"
+        return "0" if radius == 0 else f"0E{decade(max(-low, high)) + 1}"
     # Without a radius: the place of the last digit of a dyadic fraction, which has finitely many.
-    least = _decade(radius) if radius else -(middle.denominator.bit_length() - 1)
+    least = decade(radius) if radius else -(middle.denominator.bit_length() - 1)
     # At a tie the two ends differ for some digits more.
-    for place in range(least, _decade(middle) + 2):
+    for place in range(least, decade(middle) + 2):
         unit = Fraction(10) ** place
         rounded = round(low / unit)
         if rounded == round(high / unit) and rounded:
             return str(Decimal(f"{rounded}e{place}"))
-    return f"0E{_decade(max(abs(low), abs(high))) + 1}"
-
-
-def _decade(x: Fraction) -> int:
-    """The exponent n with 10ⁿ ≤ |x| < 10ⁿ⁺¹."""
-    return decimals(3).divide(x.numerator, x.denominator).adjusted()
+    return f"0E{decade(max(abs(low), abs(high))) + 1}"

@@ -7,8 +7,9 @@ from flint import arb, ctx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chapsym.certificates.balls import NotProved, decade, decimal, decimals, rounded, shortest
+from chapsym.certificates.balls import NotProved, decimal, decimals, rounded, shortest
 from chapsym.dynamics.levels.balls import exact
+from chapsym.dynamics.levels.start import decade
 
 fractions = st.fractions(max_denominator=10**9).filter(lambda x: abs(x) < 10**6)
 

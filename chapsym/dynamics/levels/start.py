@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.rationals import exact_fraction
+from chapsym.rationals import decimals, exact_fraction
 
 from ..errors import Status, StepNotTaken, explain
 from ..loops import branch, vectors
@@ -86,6 +86,11 @@ def least(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any, Any]:
 def exponent_of(x: Fraction) -> int:
     """An exponent e with |x| < 2^e, and |x| ≥ 2^(e-2), of a fraction that is not 0."""
     return x.numerator.bit_length() - x.denominator.bit_length() + 1
+
+
+def decade(x: Fraction) -> int:
+    """The exponent n with 10ⁿ ≤ |x| < 10ⁿ⁺¹ of a fraction that is not 0."""
+    return decimals(3).divide(x.numerator, x.denominator).adjusted()
 
 
 def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple[int, Fraction, list[Fraction]]:
