@@ -29,6 +29,7 @@ from chapsym.dynamics.ball import (
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
+from chapsym.dynamics.levels.proved import lengths
 from chapsym.dynamics.loops.double_double import FIRST
 from chapsym.dynamics.map import MOST_STEPS as MOST_FRAMES
 from chapsym.dynamics.map import time_limit, until, whole_number
@@ -36,7 +37,7 @@ from chapsym.dynamics.results import some_frames
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, in_words, pairs
 
 from . import motion
-from .motion import MARGIN, Motion, Problem, lengths
+from .motion import MARGIN, Motion, Problem
 
 #: The quantities that an accuracy may refer to.
 NORMS = ("state", "contact")

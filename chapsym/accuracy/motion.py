@@ -55,6 +55,7 @@ from chapsym.dynamics.ball import (
 from chapsym.dynamics.enclosed_motion import of_motion
 from chapsym.dynamics.extrapolation import FEW, loop_weights, of_some
 from chapsym.dynamics.levels.frames import Count, cores, share, watched
+from chapsym.dynamics.levels.proved import lengths
 from chapsym.dynamics.loops import following, records
 from chapsym.dynamics.loops.expected import (
     ALLOWED,
@@ -816,12 +817,3 @@ def apart(problem: Problem, run: Motion, other: Motion, stride: int = 1) -> Floa
 def _over(a: Floats, size: Floats) -> Floats:
     """a / size; for a ball at rest a itself, which is 0."""
     return np.asarray(a / np.where(size > 0, size, 1.0))
-
-
-@np.errstate(under="ignore")
-def lengths(v: np.ndarray) -> Floats:
-    """The lengths, (...), of vectors (..., n) of floats or Fractions, whose squares may be beyond float64."""
-    v = v.astype(float)
-    largest = abs(v).max(axis=-1, keepdims=True)
-    unit = v / np.where(largest > 0, largest, 1.0)
-    return np.asarray(np.sqrt((unit * unit).sum(axis=-1)) * largest[..., 0])

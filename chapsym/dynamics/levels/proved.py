@@ -38,7 +38,7 @@ def errors(balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floa
     low = pairs.low
     assert low is not None
     one = np.ones((len(balls.D), 1))
-    sizes = length(balls.momentum)[:, np.newaxis], one, one, balls.radius[:, np.newaxis]
+    sizes = lengths(balls.momentum)[:, np.newaxis], one, one, balls.radius[:, np.newaxis]
     found = list[Asked]()
     for i, name in enumerate(("momentum", "gamma", "attitude", "contact")):
         ours, high, rest = (getattr(frames, name) for frames in (run, pairs, low))
@@ -47,7 +47,7 @@ def errors(balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floa
             continue
         beyond = run.low if run.low is None else getattr(run.low, name)
         with np.errstate(invalid="ignore", over="ignore", under="ignore"):
-            off = length((ours - high) + ((0.0 if beyond is None else beyond) - rest))
+            off = lengths((ours - high) + ((0.0 if beyond is None else beyond) - rest))
             # The contact point is a sum of one part per rotation, each at most a radius.
             parts = index * stages if name == "contact" else 0.0 * index
             part = spread[:, :, i] + PAIR * (1.0 + parts * parts)
@@ -74,8 +74,9 @@ def of_step(balls: Balls, q: Floats, K: Floats, g: Floats) -> Floats:
 
 
 @np.errstate(under="ignore")
-def length(v: Floats) -> Floats:
-    """|v| of vectors, without overflow of their squares."""
+def lengths(v: np.ndarray) -> Floats:
+    """The lengths, (...), of vectors (..., n) of floats or Fractions, whose squares may be beyond float64."""
+    v = np.asarray(v, dtype=np.float64)
     most = np.abs(v).max(axis=-1, keepdims=True)
     scale = np.where(most > 0, most, 1.0)
-    return np.sqrt(((v / scale) ** 2).sum(axis=-1)) * scale[..., 0]
+    return np.asarray(np.sqrt(((v / scale) ** 2).sum(axis=-1)) * scale[..., 0])
