@@ -87,7 +87,7 @@ class States:
         gamma = _unit(gamma)
         attitude = None
         if self.attitude is not None:
-            attitude = _unit(quintic.through(_one_sign(self.attitude), *_turning(_one_sign(self.attitude), spin, bent)))
+            attitude = _unit(quintic.through(continued(self.attitude), *_turning(continued(self.attitude), spin, bent)))
         contact = None
         if self.contact is not None and (rolling := self._rolling(spin, bent)) is not None:
             contact = quintic.through(self.contact, *rolling)
@@ -182,7 +182,7 @@ def _times(q: Floats, v: Floats) -> Floats:
     return kernels.compose(q, np.concatenate([np.zeros_like(v[..., :1]), v], axis=-1))
 
 
-def _one_sign(q: Floats) -> Floats:
+def continued(q: Floats) -> Floats:
     """Each quaternion with the sign that makes it nearer to the one before: q and -q are one attitude."""
     turned = np.where((q[..., 1:, :] * q[..., :-1, :]).sum(axis=-1, keepdims=True) < 0, -1.0, 1.0)
     return np.concatenate([q[..., :1, :], q[..., 1:, :] * np.cumprod(turned, axis=-2)], axis=-2)

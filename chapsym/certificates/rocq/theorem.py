@@ -1,6 +1,7 @@
 """The texts that Rocq judges: the theorem of a certificate, and a lemma for each step."""
 
 from collections.abc import Mapping, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -22,11 +23,7 @@ def real(x: Fraction) -> str:
     if digits is None:
         return f"({x.numerator} / {x.denominator})"
     whole = str(abs(x.numerator) * (10**digits // x.denominator))
-    if len(whole) + 8 < digits:
-        text = f"{whole}e-{digits}"
-    else:
-        whole = whole.rjust(digits + 1, "0")
-        text = f"{whole[:-digits]}.{whole[-digits:]}" if digits else whole
+    text = f"{whole}e-{digits}" if len(whole) + 8 < digits else f"{Decimal(f'{whole}e-{digits}'):f}"
     return f"(-{text})" if x < 0 else text
 
 

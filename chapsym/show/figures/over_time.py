@@ -8,6 +8,7 @@ from xarray import Dataset
 
 from chapsym.dynamics import kernels
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.interpolation import continued
 
 from ..drawing import curves, reading, series
 from ..drawing.invariant import unit
@@ -124,13 +125,6 @@ def draw_attitude(dataset: Dataset) -> Picture:
         below.set_title(f"its start, {reading.span(t[:part], label)} of {reading.span(t, label)}", fontsize=10)
     legend(figure, [below])
     return figure
-
-
-def continued(quaternions: Floats) -> Floats:
-    """Quaternions (balls, frames, 4) with the sign that is nearer to the frame before: q and -q are one attitude."""
-    turns = np.sign((quaternions[:, 1:] * quaternions[:, :-1]).sum(axis=-1))
-    signs = np.cumprod(np.where(turns < 0, -1.0, 1.0), axis=1)
-    return np.concatenate([quaternions[:, :1], quaternions[:, 1:] * signs[..., np.newaxis]], axis=1)
 
 
 def draw_energy(dataset: Dataset) -> Picture:
