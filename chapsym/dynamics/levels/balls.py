@@ -89,8 +89,6 @@ def _given(balls: Balls, i: int, frames: Frames, order: int) -> Given:
     if frames.with_body:
         attitude = () if frames.least else tuple(map(Fraction, frames.attitude[i, 0]))
     momentum, gamma, tensor = (list(map(Fraction, x[i])) for x in (balls.momentum, balls.gamma, balls.mass_tensor))
-    if balls.rest is not None:
-        momentum = [x + Fraction(y) for x, y in zip(momentum, balls.rest[i], strict=True)]
     return momentum, gamma, tensor, Fraction(balls.D[i]), COMPOSITIONS[order].exact, attitude, float(balls.radius[i])
 
 
