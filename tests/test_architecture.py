@@ -173,9 +173,7 @@ def test_a_run_to_an_npz_loads_nothing_for_other_files_and_other_screens(tmp_pat
         assert (tmp_path / "out.npz").exists()
 
 
-def test_every_public_name_is_there_and_documented():
-    for name in chapsym.__all__:
-        assert getattr(chapsym, name).__doc__, name
+def test_a_name_that_is_not_there_is_said():
     with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
         _ = chapsym.nonsense
 

@@ -95,6 +95,16 @@ TEXTS = {
 }  # fmt: skip
 
 
+RESULTS = ["one.npz", "one.csv", "one.nc", "one.parquet"]
+
+
+def saved(path):
+    """A result in the format of the file's name."""
+    ball = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+    formats.save(chapsym.roll(ball, (3, -2, 1), 0.01, 20, contact=True).to_xarray(), path)
+    return path.read_bytes()
+
+
 def wrong(path, content, reader, documented):
     """What is wrong with how a file is read, in words; None if nothing is."""
     path.write_bytes(content)
@@ -109,35 +119,18 @@ def wrong(path, content, reader, documented):
     return None
 
 
-def budget(request, few):
-    return 100 * few if request.config.getoption("--thorough") else few
-
-
-@pytest.mark.parametrize("name", TEXTS)
-def test_texts_that_were_changed(name, tmp_path, request):
-    content, reader, documented = TEXTS[name]
+@pytest.mark.parametrize("name", [*TEXTS, *RESULTS])
+def test_files_that_were_changed(name, tmp_path, request):
+    content, reader, documented = TEXTS[name] if name in TEXTS else (saved(tmp_path / name), read, (BadInput,))
     content = content.encode() if isinstance(content, str) else content
     rng, found = random.Random(name), {}
     assert wrong(tmp_path / name, content, reader, ()) is None
-    for i in range(budget(request, 40)):
+    for i in range(4000 if request.config.getoption("--thorough") else 40):
         one = changed(content, rng)
         if (said := wrong(tmp_path / name, one, reader, documented)) is not None:
             found[i] = said
     assert not found
     assert [path.name for path in tmp_path.iterdir()] == [name]
-
-
-@pytest.mark.parametrize("suffix", [".npz", ".csv", ".nc", ".parquet"])
-def test_results_that_were_changed(suffix, tmp_path, request):
-    ball = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
-    run = chapsym.roll(ball, (3, -2, 1), 0.01, 20, contact=True)
-    path = tmp_path / f"one{suffix}"
-    formats.save(run.to_xarray(), path)
-    content, rng, found = path.read_bytes(), random.Random(suffix), {}
-    for i in range(budget(request, 40)):
-        if (said := wrong(path, changed(content, rng), read, (BadInput,))) is not None:
-            found[i] = said
-    assert not found
 
 
 class Code:

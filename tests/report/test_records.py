@@ -44,20 +44,6 @@ def test_counts_are_in_the_order_of_the_verdicts(handmade, record):
     assert reading.counts([record("1", "novel")]) == {"novel": 1}
 
 
-def test_errors_are_the_claims_that_are_false_as_printed_and_have_a_truth(handmade):
-    assert ids(reading.errors(handmade)) == ["5.4", "prop-3", "5.7"]
-    corrected, conditional, refuted = reading.errors(handmade)
-    assert reading.truth(corrected) == (r"a = \tfrac14 b", "")
-    assert reading.truth(conditional) == (r"\langle\gamma\rangle", "q is real")
-    assert reading.truth(refuted) == ("", "a is at most b")
-
-
-def test_only_what_the_paper_states_must_be_proved(handmade, record):
-    assert reading.unproved(handmade) == []
-    failed = [record("4.1", "open"), record("4.2", "open", open_in_paper=False)]
-    assert reading.unproved([*handmade, *failed]) == ["4.1", "4.2"]
-
-
 def test_uses_and_users_are_each_others_inverse_without_claims_that_are_not_there(register, record):
     uses, users = reading.uses(register), reading.users(register)
     assert {(a, b) for a in uses for b in uses[a]} == {(a, b) for b in users for a in users[b]}

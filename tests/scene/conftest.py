@@ -1,33 +1,22 @@
 """Members to plan and to roll, and a run of many small units."""
 
-import numpy as np
+from dataclasses import replace
+
 import pytest
+import small_units
 from small_units import OUTPUTS, plan
 
 import chapsym
-from chapsym.dynamics import kernels
-from chapsym.scene.members.members import Members
 from chapsym.scene.running import sweep
-
-TIME_STEP = 0.01
 
 
 @pytest.fixture
 def members():
-    """A function that makes n balls in SI units, all different, with K = Λω - D⟨ω,γ⟩γ."""
+    """A function that makes n of the balls of the small units, in principal axes unless others are given."""
 
-    def make(n=3, **changed):
-        spread = np.arange(n)[:, np.newaxis] / max(n, 1)
-        ball = chapsym.Ball(
-            np.array([0.004, 0.003, 0.005]) + 1e-3 * spread, 0.02 + np.zeros(n), changed.pop("radius", np.full(n, 0.1))
-        )
-        ball = changed.pop("ball", ball)
-        omega = np.array([3.0, -2.0, 1.0]) + spread
-        gamma = np.broadcast_to(np.array([2, 3, 6]) / 7, (n, 3)).copy()
-        momentum = TIME_STEP * kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
-        return Members(
-            **({"names": tuple(map(str, range(n))), "ball": ball, "momentum": momentum, "gamma": gamma} | changed)
-        )
+    def make(n=3, axes=None, radius=True):
+        some = replace(small_units.members(n), axes=axes, place=None, parameters={})
+        return some if radius else replace(some, ball=chapsym.Ball(some.ball.mass_tensor, some.ball.D))
 
     return make
 

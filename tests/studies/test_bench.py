@@ -11,7 +11,6 @@ from commands import answer, chapsym, refused
 
 import benchmarks
 from benchmarks import (
-    batch,
     calls,
     command,
     continuous,
@@ -84,23 +83,6 @@ def test_a_ball_of_ones_own_is_measured(monkeypatch):
     assert refused("bench", *ball) == "--momentum K1,K2,K3 goes with a ball of your own"
     several = refused("bench", "batch", *ball, "--momentum", "1,0,0")
     assert several == "a ball of your own goes with the section trajectory alone"
-
-
-@pytest.mark.parametrize("epsilon", trajectory.EPSILONS)
-def test_the_peers_take_the_steps_of_the_map(epsilon):
-    K = epsilon * trajectory.MOMENTUM
-    runs = {
-        name: partial(side, K, trajectory.GAMMA, trajectory.MASS_TENSOR, trajectory.D, trajectory.COMPARED)
-        for name, (side, _) in trajectory.SIDES.items()
-    }
-    differ = trajectory.agreement(runs, K, trajectory.AGREEMENT)
-    assert set(differ) == set(trajectory.SIDES)
-
-
-def test_the_peers_of_a_batch_take_the_steps_of_the_map():
-    state = batch.states(70)
-    runs = {name: partial(side, *state, batch.COMPARED) for name, side in batch.SIDES.items()}
-    assert set(trajectory.agreement(runs, state[0], batch.AGREEMENT)) == set(batch.SIDES)
 
 
 @pytest.mark.parametrize(("part", "off", "by"), [(0, 2e-12, "2"), (1, 2e-12, "2"), (0, np.nan, "nan")])

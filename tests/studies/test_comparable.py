@@ -15,9 +15,7 @@ from chapsym.studies.judge import read_case
 from chapsym.studies.judge_tables import MORE, NEEDED, TUM, read_table
 
 FILE = DATA / "robot.json"
-BODY = """<robot name="r"><link name="ball">
- <inertial><mass value="1.9"/><inertia ixx="0.0046" ixy="0" ixz="0" iyy="0.0061" iyz="0" izz="0.0083"/></inertial>
- <collision><geometry><sphere radius="0.105"/></geometry></collision></link></robot>"""
+BODY = FILE.with_suffix(".urdf")
 Q, P, V, W = NEEDED[4:], NEEDED[1:4], ("vx", "vy", "vz"), ("wx", "wy", "wz")
 
 
@@ -27,13 +25,6 @@ def rows():
     lines = [line for line in FILE.with_suffix(".csv").read_text("utf-8").splitlines() if not line.startswith("#")]
     table = list(csv.DictReader(lines))[:5]
     return {name: np.array([float(row[name]) for row in table]) for name in table[0]}
-
-
-@pytest.fixture(scope="module")
-def body(tmp_path_factory):
-    path = tmp_path_factory.mktemp("body") / "robot.urdf"
-    path.write_text(BODY, encoding="utf-8")
-    return path
 
 
 @pytest.fixture
@@ -107,10 +98,10 @@ LATE = ("taken for last", "conjugate", "z down", "Unity's")
     ("name", "own"),
     [*product(OTHERWISE, [False]), *((x, True) for x in OTHERWISE if x not in LATE), *slow(*product(LATE, [True]))],
 )
-def test_another_convention_is_named_and_there_is_no_verdict(rows, body, tmp_path, name, own):
+def test_another_convention_is_named_and_there_is_no_verdict(rows, tmp_path, name, own):
     change, said = OTHERWISE[name]
     file = write(tmp_path, change(rows))
-    case = body if own else short(tmp_path, rows)
+    case = BODY if own else short(tmp_path, rows)
     words = refused("judge", file, "--body" if own else "--against", case)
     assert f"{file} cannot be judged as it is written: " in words
     assert said in words
@@ -118,13 +109,10 @@ def test_another_convention_is_named_and_there_is_no_verdict(rows, body, tmp_pat
 
 
 @pytest.mark.parametrize("name", ["twist", *slow("of the body")])
-def test_velocities_of_the_body_show_later_where_the_first_attitude_is_no_turn(tmp_path, name):
+def test_velocities_of_the_body_show_later_where_the_first_attitude_is_no_turn(scene, tmp_path, name):
     """MuJoCo's qvel, of a free joint that begins with the quaternion 1 0 0 0."""
     change, said = OTHERWISE[name]
-    scene = tmp_path / "mine.toml"
-    text = (CASES / "robot.toml").read_text("utf-8").replace("time = 10.0", "time = 1")
-    text = text.replace("frames = 40", "frames = 4")
-    scene.write_text(text.replace("[0.8, 0.0, 0.6, 0.0]", "[1.0, 0.0, 0.0, 0.0]"), encoding="utf-8")
+    scene.write_text(scene.read_text("utf-8").replace("[0.8, 0.0, 0.6, 0.0]", "[1.0, 0.0, 0.0, 0.0]"), "utf-8")
     case = case_of_scene(scene)
     centre = np.column_stack([case.path, np.full(len(case.time), case.radius)])
     parts = np.column_stack([case.time, centre, case.attitude, case.moving, case.omega]).T
@@ -135,13 +123,13 @@ def test_velocities_of_the_body_show_later_where_the_first_attitude_is_no_turn(t
 
 
 @pytest.mark.parametrize("scale", [1e3, 1e9])
-def test_times_in_another_unit_are_seen_by_the_way_of_the_ball(rows, body, tmp_path, scale):
+def test_times_in_another_unit_are_seen_by_the_way_of_the_ball(rows, tmp_path, scale):
     """Else a motion of a million seconds is certified."""
     dense = {name: column[:2] for name, column in rows.items()}
     dense["time"] = dense["time"] * 1e-3 * scale
     way = 1e-3 * 0.25 * np.stack([rows[x][0] for x in V])
     dense |= {x: dense[x][0] + np.array([0.0, step]) for x, step in zip(P, way, strict=True)}
-    words = refused("judge", write(tmp_path, dense), "--body", body)
+    words = refused("judge", write(tmp_path, dense), "--body", BODY)
     assert f"its times are {scale:.0f} times what the way between its rows and its angular velocity say" in words
 
 
@@ -160,9 +148,9 @@ def test_a_ball_in_mm_and_g_is_not_said_to_be_times(rows, tmp_path):
         ([0], "a motion has two rows or more"),
     ],
 )
-def test_the_row_whose_time_does_not_ascend_is_named(rows, body, tmp_path, order, said):
+def test_the_row_whose_time_does_not_ascend_is_named(rows, tmp_path, order, said):
     file = write(tmp_path, {name: column[order] for name, column in rows.items()})
-    assert said in refused("judge", file, "--body", body)
+    assert said in refused("judge", file, "--body", BODY)
 
 
 def test_a_ball_at_rest_has_no_energy_in_per_cent(rows, tmp_path):
@@ -199,23 +187,23 @@ def test_a_path_that_begins_elsewhere_and_a_start_that_is_another_are_said(rows,
     assert found["path"]["greatest"] < 1e-3
 
 
-def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, body, tmp_path, said):
+def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, tmp_path, said):
     later = rows | {"time": rows["time"] + 1708447572.25}
-    made, case = case_of_body(body, read_table(write(tmp_path, later))), read_case(FILE)
+    made, case = case_of_body(BODY, read_table(write(tmp_path, later))), read_case(FILE)
     n = len(rows["time"])
     np.testing.assert_array_equal(made.time, case.time[:n])
     for name in ("path", "omega"):
         np.testing.assert_allclose(getattr(made, name), getattr(case, name)[:n], atol=1e-10)
-    found = answer("judge", write(tmp_path, rows), "--body", body)
+    found = answer("judge", write(tmp_path, rows), "--body", BODY)
     assert found["case"] == "robot"
     assert said[-1].endswith("%")
     assert found["results"][0]["departure"]["attitude"]["departs"] is None
     slow = with_parts(rows, (*V, *W), [rows[x] * (0.5 if x in W else 1.0) for x in (*V, *W)])
     assert "its first row is not the start of a ball that rolls (velocity " in refused(
-        "judge", write(tmp_path, slow), "--body", body
+        "judge", write(tmp_path, slow), "--body", BODY
     )
     assert "(0, 0, 0.2) m from there: subtract this, or begin where a ball in the air has come down)" in refused(
-        "judge", write(tmp_path, rows | {"z": rows["z"] + 0.2}), "--body", body
+        "judge", write(tmp_path, rows | {"z": rows["z"] + 0.2}), "--body", BODY
     )
     assert "give either --against" in refused("judge", write(tmp_path, rows))
 
@@ -226,21 +214,18 @@ inertia = [
   0.0046, 0.0061, 0.0083]
 radius = 0.105
 """
-MJCF = """<mujoco><worldbody><body><freejoint/>
- <inertial pos="0 0 0" mass="1.9" diaginertia="0.0046 0.0061 0.0083"/>
- <geom size="0.105"/></body></worldbody></mujoco>"""
-
-BALLS = {"a.urdf": BODY, "an.xml": MJCF, "a.toml": TOML, "a list.toml": TOML.replace("[ball]", "[[ball]]")}
+BALLS = {f"a{kind}": FILE.with_suffix(kind).read_text("utf-8") for kind in (".urdf", ".xml")}
+BALLS |= {"a.toml": TOML, "a list.toml": TOML.replace("[ball]", "[[ball]]")}
 
 
 @pytest.mark.parametrize(
     ("name", "old", "new", "said"),
     [
-        ("a.urdf", "0.0083", "0.083", "line 2: <inertia>: no body has the inertia"),
-        ("a.urdf", "1.9", "-1.9", "line 2: <mass>: mass and radius must be positive"),
-        ("a.urdf", "0.105", "0", "line 3: <sphere>: mass and radius must be positive"),
-        ("an.xml", "0.0083", "0.083", "line 2: <inertial>: no body has the inertia"),
-        ("an.xml", "0.105", "-1", "line 3: <geom>: mass and radius must be positive"),
+        ("a.urdf", "0.0083", "0.083", "line 5: <inertia>: no body has the inertia"),
+        ("a.urdf", "1.9", "-1.9", "line 4: <mass>: mass and radius must be positive"),
+        ("a.urdf", "0.105", "0", "line 8: <sphere>: mass and radius must be positive"),
+        ("a.xml", "0.0083", "0.083", "line 5: <inertial>: no body has the inertia"),
+        ("a.xml", "0.105", "-1", "line 6: <geom>: mass and radius must be positive"),
         ("a.toml", "0.0083", "0.083", "line 3: ball.inertia: no body has the inertia"),
         ("a list.toml", "1.9", "0", "line 2: ball.mass: mass and radius must be positive"),
     ],
@@ -257,7 +242,7 @@ def test_a_ball_that_physics_refuses_is_refused_where_the_user_wrote_it(rows, tm
 def alike(folder):
     """A ball with equal moments, and its closed motion: ω is constant in space."""
     file, time = folder / "alike.urdf", np.arange(5) / 100
-    file.write_text(BODY.replace("0.0061", "0.0046").replace("0.0083", "0.0046"), encoding="utf-8")
+    file.write_text(BALLS["a.urdf"].replace("0.0061", "0.0046").replace("0.0083", "0.0046"), encoding="utf-8")
     w, start = np.array([-0.72, -20.0, -31.04]), np.array([0.6, 0.0, 0.8, 0.0])
     half, along = np.linalg.norm(w) * time / 2, w / np.linalg.norm(w)
     turn = np.cos(half)[:, np.newaxis] * start[0], np.sin(half)[:, np.newaxis] * along
@@ -277,7 +262,7 @@ def test_a_quaternion_in_another_order_is_named_where_it_turns_nearly_alike(tmp_
     assert "its quaternion has the scalar last" in refused("judge", write(tmp_path, moved), "--body", file)
 
 
-def test_a_table_without_an_attitude_is_judged_by_what_it_has(rows, body, scene, tmp_path):
+def test_a_table_without_an_attitude_is_judged_by_what_it_has(rows, scene, tmp_path):
     def found(table, *case):
         return answer("judge", write(tmp_path, table), *case)["results"][0]["departure"]
 
@@ -285,7 +270,7 @@ def test_a_table_without_an_attitude_is_judged_by_what_it_has(rows, body, scene,
         return {name: values for name, values in table.items() if name not in Q}
 
     sliding = with_parts(rows, ["vx"], [rows["vx"] + 0.25 * (rows["time"] > 0.5)])
-    for case, parts in ((("--against", scene), {"path", "height", "slip"}), (("--body", body), {"height", "slip"})):
+    for case, parts in ((("--against", scene), {"path", "height", "slip"}), (("--body", BODY), {"height", "slip"})):
         judged = found(without(sliding), *case)
         assert set(judged) == parts
         assert judged["slip"]["greatest"] == pytest.approx(0.25)
@@ -293,28 +278,28 @@ def test_a_table_without_an_attitude_is_judged_by_what_it_has(rows, body, scene,
     judged = found(without(table), "--body", file)
     assert set(judged) == {"path", "energy", "momentum", "height", "slip"}
     assert max(part["greatest"] for part in judged.values()) < 1e-9
-    assert "its y is up" in refused("judge", write(tmp_path, without(y_up(rows))), "--body", body)
+    assert "its y is up" in refused("judge", write(tmp_path, without(y_up(rows))), "--body", BODY)
     part = {name: values for name, values in rows.items() if name != "qy"}
-    assert "has no column qy" in refused("judge", write(tmp_path, part), "--body", body)
+    assert "has no column qy" in refused("judge", write(tmp_path, part), "--body", BODY)
 
 
-def test_of_several_results_each_has_the_start_of_the_others(rows, body, tmp_path):
+def test_of_several_results_each_has_the_start_of_the_others(rows, tmp_path):
     """The ball starts as the file of the fewest rows does."""
     files, later = [], {name: values[1:] for name, values in rows.items()}
     for name, table, step in (("a", {x: values[:3] for x, values in rows.items()}, 4), ("b", rows, 2), ("c", rows, 1)):
         (tmp_path / name).mkdir()
         files.append(write(tmp_path / name, table, [f"# time_step = {step}e-3", ",".join(rows)]))
-    answer("judge", *files, "--body", body)
+    answer("judge", *files, "--body", BODY)
     write(tmp_path / "c", later, ["# time_step = 1e-3", ",".join(rows)])
-    assert f"{files[2]}: its first row is not the start of robot" in refused("judge", *files, "--body", body)
+    assert f"{files[2]}: its first row is not the start of robot" in refused("judge", *files, "--body", BODY)
 
 
-def test_a_ball_that_slides_at_first_is_not_said_to_be_in_mm(body, tmp_path):
+def test_a_ball_that_slides_at_first_is_not_said_to_be_in_mm(tmp_path):
     """Unity turns by 7 rad/s at most; a column of 0.0 and a height of 0.105 have no rounding that would hide it."""
     rows = {name: np.zeros(3) for name in (*NEEDED, *MORE)} | {"z": np.full(3, 0.105)}
     rows |= {"time": np.arange(3) / 100, "x": np.arange(3) * 0.03, "vx": np.full(3, 3.0), "wy": np.full(3, 7.0)}
     rows |= {"qw": np.cos(np.arange(3) * 0.035), "qy": np.sin(np.arange(3) * 0.035)}
-    words = refused("judge", write(tmp_path, rows), "--body", body)
+    words = refused("judge", write(tmp_path, rows), "--body", BODY)
     assert "its first row is not the start of a ball that rolls (velocity 2.27 m/s): no verdict on the engine" in words
 
 
