@@ -12,8 +12,6 @@ from matplotlib import image
 
 from chapsym.report import page, records
 
-SIZES = {"desk": shown.DESK, "phone": shown.PHONE}
-
 
 @pytest.fixture(scope="session")
 def written(register, tmp_path_factory):
@@ -25,7 +23,7 @@ def written(register, tmp_path_factory):
 @pytest.fixture(params=["desk", *slow("phone")])
 def tab(request, written, opened):
     """The page, loaded afresh."""
-    return opened(written, SIZES[request.param], has_touch=request.param == "phone").tab
+    return opened(written, shown.SIZES[request.param], has_touch=request.param == "phone").tab
 
 
 def claims(tab):

@@ -7,7 +7,6 @@ from contrast import low
 from research.extremes import page as extremes
 
 PRECISIONS = ["single", "double", "quad", "Digits(50)", "Ball(200)"]
-SIZES = {"desk": shown.DESK, "phone": shown.PHONE}
 
 
 def cell(condition, precision, verdict, group="fold", ulps=1.0, digits=15.5, reason=""):
@@ -63,12 +62,12 @@ def test_what_a_cell_shows():
     assert "1 ulps of 4 promised; condition number 2.5" in extremes.shown(CELLS[0]).details
 
 
-@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("size", shown.SIZES)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_in_a_browser(page, tmp_path, opened, size, scheme):
     path = tmp_path / "page.html"
     path.write_text(page, encoding="utf-8")
-    tab = opened(path, SIZES[size], color_scheme=scheme).tab
+    tab = opened(path, shown.SIZES[size], color_scheme=scheme).tab
     assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
     found = tab.eval_on_selector_all("td[data-verdict]", "all => all.map(x => x.dataset.verdict)")
     assert found == [c["verdict"] for c in CELLS]

@@ -361,14 +361,7 @@ def test_a_frame_that_was_reached_and_is_not_finite_is_an_error(name):
         figures.draw(dataset, name)
 
 
-def test_balls_whose_turn_has_not_come_and_what_stands_behind_the_last_step_are_left_out():
-    dataset = results.folded()
-    dataset["taken"][1] = -1
-    dataset["contact"][1] = np.nan
-    assert len(lines(figures.draw(dataset, "contact").axes[0])) == 1
-    dataset["taken"][0] = -1
-    with pytest.raises(BadInput, match="no ball of this result has run yet"):
-        figures.draw(dataset, "contact")
+def test_what_stands_behind_the_last_step_is_left_out():
     dataset = results.folded()
     dataset["contact"] = dataset["contact"].fillna(99.0)
     read = reading.values(dataset, "contact")

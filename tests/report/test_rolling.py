@@ -39,16 +39,6 @@ def test_the_contact_point_goes_as_far_as_the_ball_turns_and_gamma_upwards():
     )
 
 
-def test_turns_lead_from_frame_to_frame():
-    ball = one(rolled(every=40))
-    angle = np.linalg.norm(ball.turn, axis=1, keepdims=True)
-    assert angle.min() > np.pi / 2
-    step = np.concatenate([np.cos(angle / 2), np.sin(angle / 2) * ball.turn / angle], axis=1)
-    reached = kernels.compose(step, ball.attitude[:-1])
-    overlap = np.abs((reached * ball.attitude[1:]).sum(axis=1))
-    np.testing.assert_allclose(overlap, 1, rtol=0, atol=16 * EPS)
-
-
 @pytest.mark.parametrize("every", [60, 130, 300])
 def test_omega_tells_the_whole_turns_between_far_frames(every):
     """11 rad/s for 0.3 s, 0.65 s, 1.5 s is about a half, one and two and a half turns."""

@@ -29,7 +29,8 @@ def test_results_are_in_the_order_of_the_units(tmp_path):
     assert seen == [(i, 4) for i in range(5)]
 
 
-def test_what_is_kept_is_not_computed_again_and_a_line_that_was_cut_off_is(tmp_path):
+def test_what_is_kept_is_not_computed_again_and_a_line_that_was_cut_off_is(tmp_path, monkeypatch):
+    monkeypatch.setattr(units_module, "cores", lambda: 1)  # no process begins
     path = tmp_path / "u.jsonl"
     run_units(units(), path)
     text = path.read_text()
