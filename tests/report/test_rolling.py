@@ -13,7 +13,7 @@ import chapsym
 from chapsym.dynamics import BadInput, Status, kernels
 from chapsym.show.rolling import html, write_page
 from chapsym.show.rolling import motion as motions
-from chapsym.show.rolling.motion import TOO_FAR, TOO_MANY, motion, nearest_turns, turns_between
+from chapsym.show.rolling.motion import TOO_FAR, TOO_MANY, motion, nearest_turns
 
 FOLDER = Path(motions.__file__).parent
 UP = np.array([0.0, 0.0, 1.0])
@@ -59,6 +59,7 @@ def test_frames_too_far_apart_are_told_where_nothing_tells_the_turns():
     # A step of the map turns by less than half a turn: nothing is hidden between next steps, however coarse.
     next_ones = without.assign_coords(step=without["step"] // 60)
     assert not one(next_ones).notes
+    assert one(without.assign_coords(step=without["step"] // 30)).notes == [TOO_FAR]
     # A run to an accuracy has times but no steps: between two of its frames there may be any number of them.
     chosen = rolled(3900, every=60).drop_vars("step")
     assert one(chosen).turn is not None
@@ -71,15 +72,6 @@ def test_a_whole_turn_that_the_attitude_hides_is_seen_in_the_way_and_a_wrong_ome
     assert one(seen).turn is not None
     assert one(seen.assign(contact=seen["contact"] * 20)).notes == [TOO_FAR]
     assert one(wrong.assign(omega=wrong["omega"] * -0.31)).notes == [TOO_FAR]
-
-
-@pytest.mark.parametrize(("steps", "known"), [(1, True), (2, False)])
-def test_one_step_tells_a_turn_beyond_a_quarter_and_two_do_not(steps, known):
-    half = 0.3 * np.pi
-    q = np.array([[1.0, 0.0, 0.0, 0.0], [np.cos(half), np.sin(half), 0.0, 0.0]])
-    turns, found = turns_between(q, None, np.array([steps]), None, None)
-    assert turns == pytest.approx(np.array([[2 * half, 0.0, 0.0]]))
-    assert found.tolist() == [known]
 
 
 def test_a_quaternion_and_its_negative_are_the_same_attitude():
