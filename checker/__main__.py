@@ -90,7 +90,18 @@ def _refused(file: str, why: Exception) -> int:
 
 def _say(*lines: str, to: TextIO | None = None) -> None:
     """Prints lines, with escapes for unprintable characters: a file's name can neither add a line nor hide one."""
-    print(*("".join(x if x.isprintable() else repr(x)[1:-1] for x in line) for line in lines), sep="\n", file=to)
+    text = "\n".join("".join(x if x.isprintable() else repr(x)[1:-1] for x in line) for line in lines)
+    try:
+        print(text, file=to)
+    except OSError:
+        if to is None:
+            raise
+        _close(to)  # the status says it, too
+
+
+def _close(stream: TextIO | None) -> None:
+    """Lets nothing more be written to an output that refuses it."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), (stream or sys.stdout).fileno())
 
 
 def _judged(files: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -127,14 +138,20 @@ if __name__ == "__main__":
         found.loader.exec_module(package)  # type: ignore[union-attr]
         runpy.run_module("checker", run_name="__main__", alter_sys=True)
     else:
-        for stream in (sys.stdout, sys.stderr):
-            stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]  # for a terminal without Greek
+        for name in ("stdout", "stderr"):
+            if getattr(sys, name) is None:  # closed by the caller
+                setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+            getattr(sys, name).reconfigure(errors="backslashreplace")  # for a terminal without Greek
         try:
             status = main()
             sys.stdout.flush()
         except BrokenPipeError:  # the reader of the output has gone
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            _close(sys.stdout)
             status = 141
+        except OSError as error:
+            _say(f"standard output cannot be written: {error.strerror}", to=sys.stderr)
+            _close(sys.stdout)
+            status = 2
         except KeyboardInterrupt:
             status = 130
         sys.exit(status)

@@ -588,11 +588,10 @@ class Runner:
         head += f"static const double tableau[] = {{{tableau}}};\n"
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder)
-            for name, text in files.items():
-                (place / name).write_text(text, encoding="utf-8")
-            (place / "march.c").write_text(f'#include "system.c"\n{head}{ROUTINE}', encoding="utf-8")
             command = ["cc", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I", folder, place / "march.c"]
             try:
+                for name, text in {**files, "march.c": f'#include "system.c"\n{head}{ROUTINE}'}.items():
+                    (place / name).write_text(text, encoding="utf-8")
                 subprocess.run([*map(str, command), "-lm", "-o", place / "march.so"], check=True, capture_output=True)
                 return ctypes.CDLL(str(place / "march.so"))
             except (OSError, subprocess.CalledProcessError) as error:

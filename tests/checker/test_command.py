@@ -136,6 +136,18 @@ def test_it_runs_as_a_module_and_as_a_folder_without_anything_installed(files, h
     assert run.stderr == f"{files['changed']}: rejected: the statement is not the one that the numbers make\n"
 
 
+@pytest.mark.parametrize(
+    ("outputs", "statuses"),
+    [(">&-", (0, 1, 2)), ("2>&-", (0, 1, 2)), ("2>/dev/full", (0, 1, 2)), (">/dev/full", (2, 1, 2))],
+)
+def test_the_status_is_the_verdict_where_an_output_is_closed_or_full(files, outputs, statuses):
+    for name, status in zip(("right", "changed", "missing"), statuses, strict=True):
+        command = f"{sys.executable} -m chapsym.checker {files[name]} {outputs}"
+        run = subprocess.run(command, shell=True, capture_output=True, text=True)
+        assert run.returncode == status
+        assert "Traceback" not in run.stderr
+
+
 def test_it_runs_from_a_folder_beside_which_a_file_has_the_name_of_a_module(files, tmp_path):
     """As in an installed chapsym: beside the checker is chapsym/numbers, which is not Python's."""
     shutil.copytree(FOLDER, tmp_path / "checker")

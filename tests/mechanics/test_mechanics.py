@@ -31,7 +31,6 @@ from chapsym.mechanics import (
     density,
     dot,
     flag,
-    in_symbols,
     loaded,
     measured,
     motion,
@@ -353,19 +352,6 @@ def test_quantities_are_kept_or_not_at_an_exact_state():
         conserved(System("light", (x, y), vx**2 / 2), vx)
     with pytest.raises(BadSystem, match="there is w, which is no coordinate"):
         conserved(particle(), sp.Symbol("w"))
-
-
-def test_no_text_is_evaluated():
-    text = "__import__('os').system('exit 3')"
-    for made in (
-        lambda: System("one", (x,), text), lambda: System("one", (x,), vx**2, [text]),
-        lambda: conserved(particle(), text),
-        lambda: particle(discrete=Discrete(text, [x])), lambda: particle(discrete=Discrete(x, [text])),
-        lambda: particle(forces={x: text}), lambda: particle(integrals={"one": text}), lambda: in_symbols(text),
-        lambda: agree(particle(), {x: text, y: 0, z: 0}),
-    ):  # fmt: skip
-        with pytest.raises(BadSystem, match=r"no real expression of SymPy|is no expression"):
-            made()
 
 
 def test_with_half_the_step_the_drift_of_a_method_falls():

@@ -222,6 +222,17 @@ def test_an_array_of_another_form_is_refused_and_left(path, after, change):
     is_refused_and_left(path)
 
 
+def test_chunks_that_are_larger_than_their_array_are_refused(path):
+    sweep.run_to_store(plan(), path)
+    own = path / "gamma/zarr.json"
+    document = json.loads(own.read_bytes())
+    document["chunk_grid"]["configuration"]["chunk_shape"] = [4, 10**12, 3]
+    own.write_text(json.dumps(document))
+    of_the_group(lambda arrays: arrays.update(gamma=document))(path)
+    with pytest.raises(SceneError, match="the chunks of gamma are larger than it is"):
+        load(path)
+
+
 def is_refused_and_left(path):
     before = {p: p.read_bytes() for p in path.rglob("*") if p.is_file()}
     with pytest.raises(SceneError, match="is not as chapsym wrote it, but perhaps a copy; choose another name"):

@@ -262,10 +262,12 @@ def _read_zarr(path: Path) -> "Dataset":
     check_ours(path)
     if found := disputed(path):
         raise SceneError(f"{path / 'zarr.json'} and the zarr.json of {found[0]!r} in it differ: {mended(path)}")
-    with warnings.catch_warnings():  # for an incomplete group: a sentence reports it
-        warnings.filterwarnings("ignore", message="Failed to open Zarr store with consolidated metadata")
+    with warnings.catch_warnings(action="ignore"):  # a sentence reports what is wrong
         data = xarray.open_zarr(CheckedStore(path, read_only=True))
-    for one in data.variables.values():
+    for name, one in data.variables.items():
+        chunks = one.encoding.get("chunks") or ()
+        if any(length > max(size, 1) for length, size in zip(chunks, one.shape, strict=False)):
+            raise ValueError(f"the chunks of {name} are larger than it is")
         # Older versions of Zarr and xarray would write strings to other formats in NumPy's own type, which none
         # accepts.
         if getattr(one.encoding.get("dtype"), "kind", "") == "T":
