@@ -305,6 +305,7 @@ def test_numpy_may_be_told_to_raise_where_a_number_is_too_small():
         assert chapsym.step_n(BALL_N, chapsym.skew(momentum), UP).status == 0
         assert chapsym.step(tiny, (5e-324, 0, 1e-310), UP, precision="double-double").status == 0
         assert chapsym.trajectory(tiny, momentum, UP, 5, proved=True).proved.momentum is not None
+        assert chapsym.top_frames(chapsym.Ball((1, 2, 4), 0), [5e-324] * 3, UP, [0, 3]).status == 0
         assert chapsym.trajectory(tiny, (5e-324, 0, 1e-310), UP, 5, time_step=0.1).at([0.25]).gamma.shape == (1, 3)
         assert chapsym.certified_motion(tiny, (1e-200, 1e-170, 1e-300), UP, [0, 1]).stopped is None
         assert chapsym.roll(tiny, (1e-170, 1e-150, 1e-320), 0.1, 5).error < 1e-6

@@ -105,6 +105,7 @@ class TopMotion(Brief):
     exact: ExactCurve
 
     @classmethod
+    @np.errstate(under="ignore")
     def free(cls, ball: Ball, momentum: ArrayLike) -> Self:
         """The top with D = 0.
 
@@ -472,6 +473,7 @@ def _is_top(K: Floats, g: Floats, J: Floats, D: Floats) -> np.ndarray:
     return moving & ((D == 0.0) | (upright & (pairs == 1)))
 
 
+@np.errstate(under="ignore")
 def top_frames(
     ball: Ball, momentum: ArrayLike, gamma: ArrayLike, index: ArrayLike, *, attitude: bool | ArrayLike = False,
     time_step: float | None = None,
