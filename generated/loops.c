@@ -115,8 +115,6 @@ typedef struct { t_r3 a0, a1, a2; real a3; } t__r3_3r;
 typedef struct { t_r4 a0; t_r3 a1; real a2; } t__r4__r3_r;
 typedef struct { t_r4 a0; t_r3 a1; real a2; int a3, a4; } t__r4__r3_rb2;
 typedef struct { t_r4 a0; real a1, a2; } t__r4_r2;
-typedef struct { real a0, a1, a2, a3, a4; } t_r5;
-typedef struct { t_r5 a0, a1; } t__r5_2;
 typedef struct { t_r2 a0, a1, a2; } t_p3;
 typedef struct { int a0; t_p3 a1; } t_b_p3_;
 typedef struct { int a0; t_r4 a1; } t_b_r4_;
@@ -139,6 +137,7 @@ typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11; } t_r12;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12; } t_r13;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17; } t_r18;
 typedef struct { real a0, a1, a2; t_r3 a3; } t_r3_r3_;
+typedef struct { real a0, a1, a2, a3, a4; } t_r5;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; } t_r8;
 typedef struct { real a0; t_r9 a1; } t_r_r9_;
 
@@ -3781,59 +3780,61 @@ INLINE void carried_leave(r2 S, r2 E, int64_t B, int traced) {
     }
 }
 
-INLINE t_r5 carried_moved(r2 E, int64_t b, int64_t i, int64_t j, int64_t k, t_r3 l, int64_t n) {
-    t_r3 v = carried_applied((t__r3_3){vectors_three_in(E, 54, i), vectors_three_in(E, 54, j), vectors_three_in(E, 54,
-        k)}, l);
-    real x = AT2(E, 70 + n, b) + vectors_dot(carried_row_of(E, 57, i, j, k), l);
-    real y = AT2(E, 70 + n + 1, b) + vectors_dot(carried_row_of(E, 58, i, j, k), l);
-    return (t_r5){v.a0, v.a1, v.a2, x, y};
+INLINE t_r3 carried_through(r2 E, int64_t at, t__r3_3 l, int64_t i, int64_t j, int64_t k) {
+    t_r3 row = carried_row_of(E, at, i, j, k);
+    return (t_r3){vectors_dot(row, l.a0), vectors_dot(row, l.a1), vectors_dot(row, l.a2)};
 }
 
-INLINE t_r2 carried_rotation(real x, real y) {
-    real size = R(sqrt(x * x + y * y)), over = size > R(0.0) ? size : R(1.0);
-    return (t_r2){size > R(0.0) ? x / over : R(1.0), y / over};
+INLINE t_r5 carried_reflection(t_r4 u) {
+    real size = R(sqrt(vectors_square_of_four(u))), first = u.a0 + (u.a0 >= R(0.0) ? size : -size);
+    return (t_r5){first, u.a1, u.a2, u.a3, size > R(0.0) ? R(1.0) / (size * R(fabs(first))) : R(0.0)};
 }
 
-INLINE t__r5_2 carried_turned(t_r2 by, t_r5 p, t_r5 q) {
-    t_r2 c = by;
-    return (t__r5_2){(t_r5){c.a0 * p.a0 + c.a1 * q.a0, c.a0 * p.a1 + c.a1 * q.a1, c.a0 * p.a2 + c.a1 * q.a2, c.a0 *
-        p.a3 + c.a1 * q.a3, c.a0 * p.a4 + c.a1 * q.a4}, (t_r5){c.a0 * q.a0 - c.a1 * p.a0, c.a0 * q.a1 - c.a1 * p.a1,
-        c.a0 * q.a2 - c.a1 * p.a2, c.a0 * q.a3 - c.a1 * p.a3, c.a0 * q.a4 - c.a1 * p.a4}};
+INLINE t_r4 carried_reflected(t_r5 v, t_r4 row) {
+    real along = v.a4 * (v.a0 * row.a0 + v.a1 * row.a1 + v.a2 * row.a2 + v.a3 * row.a3);
+    return (t_r4){row.a0 - along * v.a0, row.a1 - along * v.a1, row.a2 - along * v.a2, row.a3 - along * v.a3};
 }
 
 INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
-    int64_t i, j, k; real error, r, v, east, north, own, out; t_r2 u; t_r5 p, q, s, x, y, z;
-    t_r3 one, two, last, a, d, c; t__r3_3 columns; carried_flown(E, B, traced); carried_leave(S, E, B, traced);
+    int64_t i, j, k;
+    real error, r, s1, s2, s3, s4, x1, x2, x3, x4, y1, y2, y3, y4, s5, x5, y5, x6, y6, east, north, own, out;
+    t__r3_3 l, columns; t_r3 p, q, s, x, y, p1, one, two, last, a, d, c; t_r5 v; t_r4 q1; carried_flown(E, B, traced);
+    carried_leave(S, E, B, traced);
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
         i = b; j = B + b; k = 2 * B + b; error = AT2(E, 82, b); r = R(sqrt(error));
-        u = (t_r2){AT2(E, 67, b), AT2(E, 68, b)}; v = AT2(E, 69, b);
-        p = carried_moved(E, b, i, j, k, vectors_three_in(E, 64, b), 0);
-        q = carried_moved(E, b, i, j, k, (t_r3){R(0.0), u.a0, u.a1}, 2);
-        s = carried_moved(E, b, i, j, k, (t_r3){R(0.0), R(0.0), v}, 4); x = (t_r5){r, R(0.0), R(0.0), R(0.0), R(0.0)};
-        y = (t_r5){R(0.0), r, R(0.0), R(0.0), R(0.0)}; z = (t_r5){R(0.0), R(0.0), r, R(0.0), R(0.0)};
-        t__r5_2 t_1 = carried_turned(carried_rotation(p.a0, q.a0), p, q); p = t_1.a0; q = t_1.a1;
-        t__r5_2 t_2 = carried_turned(carried_rotation(p.a0, s.a0), p, s); p = t_2.a0; s = t_2.a1;
-        t__r5_2 t_3 = carried_turned(carried_rotation(p.a0, x.a0), p, x); p = t_3.a0; x = t_3.a1;
-        t__r5_2 t_4 = carried_turned(carried_rotation(q.a1, s.a1), q, s); q = t_4.a0; s = t_4.a1;
-        t__r5_2 t_5 = carried_turned(carried_rotation(q.a1, x.a1), q, x); q = t_5.a0; x = t_5.a1;
-        t__r5_2 t_6 = carried_turned(carried_rotation(q.a1, y.a1), q, y); q = t_6.a0; y = t_6.a1;
-        t__r5_2 t_7 = carried_turned(carried_rotation(s.a2, x.a2), s, x); s = t_7.a0; x = t_7.a1;
-        t__r5_2 t_8 = carried_turned(carried_rotation(s.a2, y.a2), s, y); s = t_8.a0; y = t_8.a1;
-        t__r5_2 t_9 = carried_turned(carried_rotation(s.a2, z.a2), s, z); s = t_9.a0; z = t_9.a1;
-        one = (t_r3){p.a0, p.a1, p.a2}; two = (t_r3){R(0.0), q.a1, q.a2}; last = (t_r3){R(0.0), R(0.0), s.a2};
-        vectors_put_in(E, 64, b, one); AT2(E, 67, b) = q.a1; AT2(E, 68, b) = q.a2; AT2(E, 69, b) = s.a2;
-        AT2(E, 70, b) = p.a3; AT2(E, 71, b) = p.a4; AT2(E, 72, b) = q.a3; AT2(E, 73, b) = q.a4; AT2(E, 74, b) = s.a3;
-        AT2(E, 75, b) = s.a4;
+        l = (t__r3_3){vectors_three_in(E, 64, b), (t_r3){R(0.0), AT2(E, 67, b), AT2(E, 68, b)}, (t_r3){R(0.0), R(0.0),
+            AT2(E, 69, b)}};
+        p = carried_through(E, 54, l, i, j, k); q = carried_through(E, 55, l, i, j, k);
+        s = carried_through(E, 56, l, i, j, k);
+        x = vectors_plus(carried_through(E, 57, l, i, j, k), vectors_three_in(E, 70, b));
+        y = vectors_plus(carried_through(E, 58, l, i, j, k), vectors_three_in(E, 73, b)); p1 = p;
+        v = carried_reflection((t_r4){p1.a0, p1.a1, p1.a2, r});
+        q1 = carried_reflected(v, (t_r4){q.a0, q.a1, q.a2, R(0.0)});
+        t_r4 t_1 = carried_reflected(v, (t_r4){s.a0, s.a1, s.a2, R(0.0)}); s1 = t_1.a0; s2 = t_1.a1; s3 = t_1.a2;
+        s4 = t_1.a3; t_r4 t_2 = carried_reflected(v, (t_r4){x.a0, x.a1, x.a2, R(0.0)}); x1 = t_2.a0; x2 = t_2.a1;
+        x3 = t_2.a2; x4 = t_2.a3; t_r4 t_3 = carried_reflected(v, (t_r4){y.a0, y.a1, y.a2, R(0.0)}); y1 = t_3.a0;
+        y2 = t_3.a1; y3 = t_3.a2; y4 = t_3.a3; one = (t_r3){p1.a0 - v.a0, q1.a0, s1};
+        v = carried_reflection((t_r4){q1.a1, q1.a2, q1.a3, r});
+        t_r4 t_4 = carried_reflected(v, (t_r4){s2, s3, s4, R(0.0)}); s2 = t_4.a0; s3 = t_4.a1; s4 = t_4.a2;
+        s5 = t_4.a3; t_r4 t_5 = carried_reflected(v, (t_r4){x2, x3, x4, R(0.0)}); x2 = t_5.a0; x3 = t_5.a1;
+        x4 = t_5.a2; x5 = t_5.a3; t_r4 t_6 = carried_reflected(v, (t_r4){y2, y3, y4, R(0.0)}); y2 = t_6.a0;
+        y3 = t_6.a1; y4 = t_6.a2; y5 = t_6.a3; two = (t_r3){R(0.0), q1.a1 - v.a0, s2};
+        v = carried_reflection((t_r4){s3, s4, s5, r}); t_r4 t_7 = carried_reflected(v, (t_r4){x3, x4, x5, R(0.0)});
+        x3 = t_7.a0; x4 = t_7.a1; x5 = t_7.a2; x6 = t_7.a3;
+        t_r4 t_8 = carried_reflected(v, (t_r4){y3, y4, y5, R(0.0)}); y3 = t_8.a0; y4 = t_8.a1; y5 = t_8.a2;
+        y6 = t_8.a3; last = (t_r3){R(0.0), R(0.0), s3 - v.a0}; vectors_put_in(E, 64, b, one); AT2(E, 67, b) = two.a1;
+        AT2(E, 68, b) = two.a2; AT2(E, 69, b) = last.a2; vectors_put_in(E, 70, b, (t_r3){x1, x2, x3});
+        vectors_put_in(E, 73, b, (t_r3){y1, y2, y3});
         columns = (t__r3_3){vectors_three_in(E, 19, i), vectors_three_in(E, 19, j), vectors_three_in(E, 19, k)};
         a = carried_applied(columns, one); d = carried_applied(columns, two); c = carried_applied(columns, last);
-        AT2(E, 86, b) = R(sqrt(vectors_dot(one, one) + vectors_dot(two, two) + s.a2 * s.a2));
+        AT2(E, 86, b) = R(sqrt(vectors_dot(one, one) + vectors_dot(two, two) + vectors_dot(last, last)));
         AT2(E, 87, b) = R(sqrt(vectors_dot(a, a) + vectors_dot(d, d) + vectors_dot(c, c)));
         if (traced) {
             east = AT2(S, 115, b); north = AT2(S, 116, b); own = R(1.1102230246251565e-16) / AT2(S, 130, b);
             error = error + (error > R(0.0) ? own * own * (east * east + north * north) : R(0.0));
-            AT2(E, 76, b) = AT2(E, 76, b) + (x.a3 * x.a3 + y.a3 * y.a3 + z.a3 * z.a3 + error);
-            AT2(E, 77, b) = AT2(E, 77, b) + (x.a4 * x.a4 + y.a4 * y.a4 + z.a4 * z.a4 + error);
-            out = p.a3 * p.a3 + q.a3 * q.a3 + s.a3 * s.a3 + p.a4 * p.a4 + q.a4 * q.a4 + s.a4 * s.a4;
+            AT2(E, 76, b) = AT2(E, 76, b) + (x4 * x4 + x5 * x5 + x6 * x6 + error);
+            AT2(E, 77, b) = AT2(E, 77, b) + (y4 * y4 + y5 * y5 + y6 * y6 + error);
+            out = x1 * x1 + x2 * x2 + x3 * x3 + (y1 * y1 + y2 * y2 + y3 * y3);
             AT2(E, 88, b) = R(sqrt(out + AT2(E, 76, b) + AT2(E, 77, b)));
         }
     }
@@ -4195,6 +4196,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "b3d53c3282ced08d722287de601b8f933b36daaf44b576551c0924ec9aaf6ac0";
+const char loops_text[] = "f2448bb9b33beb780123c1b58740b007b7ff8e2a2c073ee17a3598c8910ff615";
 #endif
 #endif

@@ -12,8 +12,8 @@ up to the fifth power of h; for constant A without growth there is no growth (Pa
 direction is unknown, and may change little from step to step.  So three errors of this size go on as Φφ + e, one along
 each of the changes by the last three columns: then cancellation between steps is taken into account.  Rounding errors
 have random directions: the matrix of their mean squares goes on as ΦSΦᵀ + r².  It is kept as a factor, S = LLᵀ, and
-[ΦL, r] is turned to a triangle: where errors grow along one direction and shrink along others, S itself would lose the
-latter to rounding, and then be wrong where these grow.
+reflections take [ΦL, r] to a triangle: where errors grow along one direction and shrink along others, S itself would
+lose the latter to rounding, and then be wrong where these grow.
 """
 
 from math import sqrt
@@ -32,7 +32,7 @@ END = 19
 #: end of the step, and its contribution to the contact point.
 UNIT, INPUT, SHAPE, FLOWN, CARRIED = 2 * END, 2 * END + 3, 2 * END + 13, 2 * END + 16, 2 * END + 19
 #: The accumulated truncation errors of φ and the contact point, three errors in three lanes.  Rows of the ball: L by
-#: columns (6), the parts of the contact point in these columns (6), and the mean squares of its others (2).  Of an
+#: columns (6), the two rows of the contact point in these columns (6), and the mean squares of its others (2).  Of an
 #: accepted step: its length in the unit of time of S, its error as a fraction of each vector of `TWIST`, and the square
 #: of its rounding error.
 LEFT, ROLLED, INNER, MIXED, OUTER = CARRIED + 2, CARRIED + 5, CARRIED + 7, CARRIED + 13, CARRIED + 19
@@ -246,64 +246,68 @@ def carry(S, E, B, traced):
     for b in lanes(B):
         i, j, k = b, B + b, 2 * B + b
         error = E[ROUNDED, b]
-        r, u, v = sqrt(error), (E[INNER + 3, b], E[INNER + 4, b]), E[INNER + 5, b]
-        p = moved(E, b, i, j, k, three_in(E, INNER, b), 0)
-        q = moved(E, b, i, j, k, (0.0, u[0], u[1]), 2)
-        s = moved(E, b, i, j, k, (0.0, 0.0, v), 4)
-        x, y, z = (r, 0.0, 0.0, 0.0, 0.0), (0.0, r, 0.0, 0.0, 0.0), (0.0, 0.0, r, 0.0, 0.0)
-        p, q = turned(rotation(p[0], q[0]), p, q)
-        p, s = turned(rotation(p[0], s[0]), p, s)
-        p, x = turned(rotation(p[0], x[0]), p, x)
-        q, s = turned(rotation(q[1], s[1]), q, s)
-        q, x = turned(rotation(q[1], x[1]), q, x)
-        q, y = turned(rotation(q[1], y[1]), q, y)
-        s, x = turned(rotation(s[2], x[2]), s, x)
-        s, y = turned(rotation(s[2], y[2]), s, y)
-        s, z = turned(rotation(s[2], z[2]), s, z)
-        one, two, last = (p[0], p[1], p[2]), (0.0, q[1], q[2]), (0.0, 0.0, s[2])
+        r, l = (
+            sqrt(error),
+            (three_in(E, INNER, b), (0.0, E[INNER + 3, b], E[INNER + 4, b]), (0.0, 0.0, E[INNER + 5, b])),
+        )
+        # The rows of [ΦL, r], and of the contact point.
+        p, q, s = through(E, FLOWN, l, i, j, k), through(E, FLOWN + 1, l, i, j, k), through(E, FLOWN + 2, l, i, j, k)
+        x = plus(through(E, CARRIED, l, i, j, k), three_in(E, MIXED, b))
+        y = plus(through(E, CARRIED + 1, l, i, j, k), three_in(E, MIXED + 3, b))
+        p1, p2, p3 = p
+        v = reflection((p1, p2, p3, r))
+        q1, q2, q3, q4 = reflected(v, (q[0], q[1], q[2], 0.0))
+        s1, s2, s3, s4 = reflected(v, (s[0], s[1], s[2], 0.0))
+        x1, x2, x3, x4 = reflected(v, (x[0], x[1], x[2], 0.0))
+        y1, y2, y3, y4 = reflected(v, (y[0], y[1], y[2], 0.0))
+        one = p1 - v[0], q1, s1
+        v = reflection((q2, q3, q4, r))
+        s2, s3, s4, s5 = reflected(v, (s2, s3, s4, 0.0))
+        x2, x3, x4, x5 = reflected(v, (x2, x3, x4, 0.0))
+        y2, y3, y4, y5 = reflected(v, (y2, y3, y4, 0.0))
+        two = 0.0, q2 - v[0], s2
+        v = reflection((s3, s4, s5, r))
+        x3, x4, x5, x6 = reflected(v, (x3, x4, x5, 0.0))
+        y3, y4, y5, y6 = reflected(v, (y3, y4, y5, 0.0))
+        last = 0.0, 0.0, s3 - v[0]
         put_in(E, INNER, b, one)
-        E[INNER + 3, b], E[INNER + 4, b], E[INNER + 5, b] = q[1], q[2], s[2]
-        E[MIXED, b], E[MIXED + 1, b], E[MIXED + 2, b], E[MIXED + 3, b] = p[3], p[4], q[3], q[4]
-        E[MIXED + 4, b], E[MIXED + 5, b] = s[3], s[4]
+        E[INNER + 3, b], E[INNER + 4, b], E[INNER + 5, b] = two[1], two[2], last[2]
+        put_in(E, MIXED, b, (x1, x2, x3))
+        put_in(E, MIXED + 3, b, (y1, y2, y3))
         columns = three_in(E, END + SPUN, i), three_in(E, END + SPUN, j), three_in(E, END + SPUN, k)
         a, d, c = applied(columns, one), applied(columns, two), applied(columns, last)
-        E[FOUND + 3, b] = sqrt(dot(one, one) + dot(two, two) + s[2] * s[2])
+        E[FOUND + 3, b] = sqrt(dot(one, one) + dot(two, two) + dot(last, last))
         E[FOUND + 4, b] = sqrt(dot(a, a) + dot(d, d) + dot(c, c))
         if traced:
             # Far from the origin the contact point has rounding errors of its own.
             east, north, own = S[MOVED + SPOT, b], S[MOVED + SPOT + 1, b], UNIT_ROUNDING / S[RADIUS, b]
             error += own * own * (east * east + north * north) if error > 0.0 else 0.0
-            E[OUTER, b] += x[3] * x[3] + y[3] * y[3] + z[3] * z[3] + error
-            E[OUTER + 1, b] += x[4] * x[4] + y[4] * y[4] + z[4] * z[4] + error
-            out = p[3] * p[3] + q[3] * q[3] + s[3] * s[3] + p[4] * p[4] + q[4] * q[4] + s[4] * s[4]
+            E[OUTER, b] += x4 * x4 + x5 * x5 + x6 * x6 + error
+            E[OUTER + 1, b] += y4 * y4 + y5 * y5 + y6 * y6 + error
+            out = (x1 * x1 + x2 * x2 + x3 * x3) + (y1 * y1 + y2 * y2 + y3 * y3)
             E[FOUND + 5, b] = sqrt(out + E[OUTER, b] + E[OUTER + 1, b])
     for row in range(END):
         for i in lanes(LANES * B):
             E[row, i] = E[END + row, i]
 
 
-def moved(E, b, i, j, k, l, n):
-    """A column of L after a step, and the parts of the contact point in it, of which the former are at MIXED + n."""
-    v = applied((three_in(E, FLOWN, i), three_in(E, FLOWN, j), three_in(E, FLOWN, k)), l)
-    x = E[MIXED + n, b] + dot(row_of(E, CARRIED, i, j, k), l)
-    y = E[MIXED + n + 1, b] + dot(row_of(E, CARRIED + 1, i, j, k), l)
-    return v[0], v[1], v[2], x, y
+def through(E, at, l, i, j, k):
+    """The product of a row and the matrix L, by its columns."""
+    row = row_of(E, at, i, j, k)
+    return dot(row, l[0]), dot(row, l[1]), dot(row, l[2])
 
 
-def rotation(x, y):
-    """The cosine and the sine of the rotation that turns (x, y) to (√(x² + y²), 0)."""
-    size = sqrt(x * x + y * y)
-    over = size if size > 0.0 else 1.0
-    return x / over if size > 0.0 else 1.0, y / over
+def reflection(u):
+    """The vector v of the reflection 1 - f vvᵀ that takes u to (u₀ - v₀, 0, 0, 0), and f."""
+    size = sqrt(square_of_four(u))
+    first = u[0] + (size if u[0] >= 0.0 else -size)
+    return first, u[1], u[2], u[3], 1.0 / (size * abs(first)) if size > 0.0 else 0.0
 
 
-def turned(by, p, q):
-    """Two columns of five numbers, rotated into each other."""
-    c, s = by
-    return (
-        (c * p[0] + s * q[0], c * p[1] + s * q[1], c * p[2] + s * q[2], c * p[3] + s * q[3], c * p[4] + s * q[4]),
-        (c * q[0] - s * p[0], c * q[1] - s * p[1], c * q[2] - s * p[2], c * q[3] - s * p[3], c * q[4] - s * p[4]),
-    )
+def reflected(v, row):
+    """A row, reflected."""
+    along = v[4] * (v[0] * row[0] + v[1] * row[1] + v[2] * row[2] + v[3] * row[3])
+    return row[0] - along * v[0], row[1] - along * v[1], row[2] - along * v[2], row[3] - along * v[3]
 
 
 def row_of(E, at, i, j, k):
