@@ -3801,7 +3801,7 @@ INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
     t__r3_3 l, columns; t_r3 p, q, s, x, y, p1, one, two, last, a, d, c; t_r5 v; t_r4 q1; carried_flown(E, B, traced);
     carried_leave(S, E, B, traced);
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        i = b; j = B + b; k = 2 * B + b; error = AT2(E, 82, b); r = R(sqrt(error));
+        i = b; j = B + b; k = 2 * B + b; error = AT2(E, 82, b); r = R(sqrt(AT2(E, 82, b)));
         l = (t__r3_3){vectors_three_in(E, 64, b), (t_r3){R(0.0), AT2(E, 67, b), AT2(E, 68, b)}, (t_r3){R(0.0), R(0.0),
             AT2(E, 69, b)}};
         p = carried_through(E, 54, l, i, j, k); q = carried_through(E, 55, l, i, j, k);
@@ -4196,6 +4196,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "f2448bb9b33beb780123c1b58740b007b7ff8e2a2c073ee17a3598c8910ff615";
+const char loops_text[] = "bd35df7e1c1a32abc8d563f8f25b689bf62a23155defcacd6bcbbc3dfa1b676d";
 #endif
 #endif

@@ -3,7 +3,6 @@
 import json
 from dataclasses import replace
 from fractions import Fraction
-from operator import mul
 
 import numpy as np
 import pytest
@@ -133,47 +132,34 @@ def test_estimates_that_were_too_small_are_above_the_errors(by, moments, D, gamm
     assert found.error <= accuracy or by is composed
 
 
-def started(moments, D, omega, gamma):
-    """K of these floats, as fractions."""
-    J, D, w, g = list(map(Fraction, moments)), Fraction(D), list(map(Fraction, omega)), list(map(Fraction, gamma))
-    along = sum(map(mul, w, g)) / sum(map(mul, g, g))
-    return [(sum(J) - j + D) * x - D * along * y for j, x, y in zip(J, w, g, strict=True)]
-
-
-def test_near_a_separatrix_two_runs_that_end_at_the_same_pole_are_not_believed():
-    """After other ways they are far from the motion: .009 was stated where γ was off by 1.76."""
-    J, D = (0.8672887038992961, 0.05457279087640947, 0.19573360961298567), 0.0014818438757009426
-    omega = (1.0655657650249886e-10, -1.5557995984490644e-11, -1.0)
-    gamma = (-0.22052748251581725, 0.9753807612697905, 0.0)
-    run = chapsym.roll(chapsym.Ball(J, D), omega, 109.89151821715267, 1, gamma=gamma, accuracy=0.053)
-    exact = chapsym.ExactBall(J, D), started(J, D, omega, gamma), list(map(Fraction, gamma))
-    found = chapsym.certified_motion(*exact, [Fraction(run.time_step)], 8)
-    assert np.linalg.norm(run.gamma[-1] - found.gamma[0].astype(float)) < run.error
-
-
 @pytest.mark.parametrize(
-    ("J", "D", "radius", "omega", "gamma", "turned", "accuracy"),
+    ("J", "D", "omega", "gamma", "turned", "accuracy"),
     [
+        # Near a separatrix two runs end at the same pole, after other ways: .009 was stated where γ was off by 1.76.
+        ((0.8672887038992961, 0.05457279087640947, 0.19573360961298567), 0.0014818438757009426,
+         (1.0655657650249886e-10, -1.5557995984490644e-11, -1.0), (-0.22052748251581725, 0.9753807612697905, 0.0),
+         109.89151821715267, 0.053),
         # Nearly steady: the roundings of long steps are nearly equal, and add up; 2e-11 was stated for 1e-10.
-        ((0.9553543219954377, 0.36242107888941816, 0.07616532083482949), 12.69055710403009, 0.3478891269136987,
+        ((0.9553543219954377, 0.36242107888941816, 0.07616532083482949), 12.69055710403009,
          (3.760030277440417, -8.064667812756105e-05, -0.0005419181071037346),
          (0.6464068096931247, -0.7578144667787223, 0.08874384667816299), 1619.1, 1.63e-10),
         # Long: the heading of the contact point drifts by the roundings of compositions; 2.1e-9 was stated for 5.6e-9.
-        ((0.5654924055873893, 0.7928926739705814, 0.09561087529104993), 0.02822246515951232, 1.0739394124835417,
+        ((0.5654924055873893, 0.7928926739705814, 0.09561087529104993), 0.02822246515951232,
          (-0.8725441085776514, 1.0396468774161032, 0.6230832581877342),
          (0.5982301700636152, -0.2590301448382307, 0.7583034008170763), 6000.0, 3e-9),
     ],
 )  # fmt: skip
-def test_roundings_that_add_up_are_in_the_estimate(J, D, radius, omega, gamma, turned, accuracy):
-    ball, end = chapsym.Ball(J, D, radius), turned / np.linalg.norm(omega)
-    run = chapsym.roll(ball, omega, end, 1, gamma=gamma, contact=True, accuracy=accuracy)
-    steps = int(4 * turned)
-    K = np.array(started(J, D, omega, gamma), dtype=float)
-    fine = chapsym.extrapolate(ball, K, gamma, Fraction(end) / steps, steps, contact=True, precision="double-double")
-    contact, attitude = (
-        np.linalg.norm(getattr(run, x)[-1] - getattr(fine, x) - getattr(fine.low, x)) for x in ("contact", "attitude")
-    )
-    assert max(contact / radius, 2 * attitude) < run.error
+def test_an_error_that_was_above_its_estimate_is_below(J, D, omega, gamma, turned, accuracy):
+    asked = unstable_starts.Start(chapsym.Ball(J, D, 1.0), omega, np.array(gamma), accuracy, 0.0)
+    end, options = turned / np.linalg.norm(omega), {"gamma": gamma, "accuracy": accuracy}
+    run = chapsym.roll(asked.ball, omega, end, 1, attitude=True, contact=True, **options)
+    assert unstable_starts.distance(asked, run, unstable_starts.by_extrapolation(asked, run)) < run.error
+
+
+def test_through_passages_of_an_unstable_axis_an_accuracy_that_is_met_is_met(thorough):
+    """Of 2000 seeds 34 were met by the estimate alone, which was up to 390 times too small."""
+    seeds = range(2000) if thorough else range(60)
+    assert max(map(unstable_starts.passing, seeds)) < 1
 
 
 def test_two_runs_of_a_rod_that_are_both_far_from_the_motion_are_not_believed():

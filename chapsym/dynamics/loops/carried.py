@@ -245,11 +245,8 @@ def carry(S, E, B, traced):
     leave(S, E, B, traced)
     for b in lanes(B):
         i, j, k = b, B + b, 2 * B + b
-        error = E[ROUNDED, b]
-        r, l = (
-            sqrt(error),
-            (three_in(E, INNER, b), (0.0, E[INNER + 3, b], E[INNER + 4, b]), (0.0, 0.0, E[INNER + 5, b])),
-        )
+        error, r = E[ROUNDED, b], sqrt(E[ROUNDED, b])
+        l = three_in(E, INNER, b), (0.0, E[INNER + 3, b], E[INNER + 4, b]), (0.0, 0.0, E[INNER + 5, b])
         # The rows of [ΦL, r], and of the contact point.
         p, q, s = through(E, FLOWN, l, i, j, k), through(E, FLOWN + 1, l, i, j, k), through(E, FLOWN + 2, l, i, j, k)
         x = plus(through(E, CARRIED, l, i, j, k), three_in(E, MIXED, b))

@@ -74,7 +74,7 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     if scene.toml is None:
         raise SceneError(f"{name}: certified digits need the numbers as a scene file writes them")
     if len(expand(without_rotors(scene))) != 1:
-        raise SceneError(f"{name}: certify motion takes one ball; this scene has several, or a range")
+        raise SceneError(f"{name}: certified digits are of one ball; this scene has several, or a range")
     if scene.maps:
         raise SceneError(
             f"{name} is of the map; certify motion is of the continuous ball: give start.omega, or start.velocity"

@@ -253,6 +253,10 @@ def _parsed(text: str, path: Path) -> Data:
         return tomllib.loads(text, parse_float=toml_float)
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
         clause = str(error).splitlines()[0]
+        if isinstance(error, RecursionError):
+            clause = "its values are nested too deeply"
+        elif "int_max_str_digits" in clause:
+            clause = "a whole number has more digits than Python reads, 4300"
         found = re.search(r" \(at line (\d+), column (\d+)\)$", clause)
         where = f"{path}, line {found[1]}, column {found[2]}" if found else str(path)
         raise SceneError(f"{where}: this is not TOML: {clause[: found.start()] if found else clause}") from None
