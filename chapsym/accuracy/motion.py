@@ -114,11 +114,11 @@ SAFETY, RATIO = 4.0, 1.5
 LAWFUL, FINE = 2.0, 100.0
 #: The least number of times at which two runs are compared: at one time they may agree by chance, after different ways.
 COMPARED = 32
-#: The rounding error of a stage of the map in the heading of the contact point, in roundings: for the mean of 40 balls
-#: it was .001, and .009 for the worst.
+#: The rounding error of a stage of the map in the heading of the contact point, in roundings: the median of 40 balls
+#: was .001, the largest .012.
 DRIFT = 0.02
 #: The factor on the estimate of compositions where long steps are not accurate enough: near a separatrix errors do not
-#: fall at their order, and the error was up to 2.9 times the estimate (2 of 600 starts).
+#: fall at their order, and two errors of 300 starts were above their estimates, the larger 2.9 times.
 DOUBTED = 4.0
 #: The difference of the start of a verifying run from that of the run, in roundings.
 ROUNDED = 8
