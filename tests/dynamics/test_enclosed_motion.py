@@ -365,7 +365,7 @@ REFUSED = [
     ({"radius = 0.1": 'radius = 0.1\nrotor = [1, 2, "3 kg"]'}, "angular momentum"),
     ({"radius = 0.1": "radius = 0.1\nrotor = [1, 2, { linspace = [1, 2, 3] }]"}, "rotor"),
     (OF_THE_MAP, "is of the map"),
-    ({"D = 0.3": "D = { linspace = [1, 2, 3] }"}, "takes one ball"),
+    ({"D = 0.3": "D = { linspace = [1, 2, 3] }"}, "are of one ball"),
     (
         {'mass_tensor = [0.1, 0.2, "2/5"]': f'inertia = [[5, 1, 1], [1, 5, 1], [1, 1, "5.{400 * "0"}1"]]'},
         "two principal moments are nearly equal",
