@@ -765,12 +765,13 @@ def _verified(problem: Problem, order: int, steps: int, run: Motion, progress: C
     coarse = replace(problem, K=problem.K + moved).take(order, fewer, stride, progress)
     off = apart(problem, run, coarse, stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
-    rounded = problem.survey[FLOOR]
+    # The expected rounding is that of steps as long as the motion allows; those between many frames are shorter.
+    terms = problem.frames * len(substeps(order)) * steps
+    rounded = problem.survey[FLOOR] + 2 * problem.units * 2.0**-53 * terms**0.5
     if run.contact is not None and problem.ball.radius is not None and "contact" in problem.parts:
         # The contact point is a sum of one term per step of the map; each term turns with the attitude, a product of as
         # many rotations, whose roundings are partly the same.
         way = np.nan_to_num(np.abs(run.contact)).max(axis=(-2, -1)) / problem.ball.radius + problem.rate * problem.end
-        terms = problem.frames * len(substeps(order)) * steps
         rounded = rounded + problem.units * way * 2.0**-53 * (terms**0.5 + DRIFT * terms)
     return np.asarray(off * share + rounded)
 
