@@ -397,11 +397,10 @@ class Motion:
 
     def every(self, stride: int) -> Motion:
         """The motion with every `stride`-th frame."""
-        some: Callable[[Any], Any] = lambda x: None if x is None else np.ascontiguousarray(x[:, ::stride])  # noqa: E731
-        return replace(
-            self, angular_momentum=some(self.angular_momentum), gamma=some(self.gamma), attitude=some(self.attitude),
-            contact=some(self.contact), reached=self.reached // stride,
-        )  # fmt: skip
+        names = "angular_momentum", "gamma", "attitude", "contact"
+        frames: dict[str, Any] = {name: getattr(self, name) for name in names}
+        kept = {name: np.ascontiguousarray(x[:, ::stride]) for name, x in frames.items() if x is not None}
+        return replace(self, reached=self.reached // stride, **kept)
 
     def put(self, where: np.ndarray, other: Motion) -> None:
         """Copies other balls to the places `where`."""

@@ -5,7 +5,8 @@ An identity between functions of Euler parameters and a unit vertical holds if i
 arithmetic (python-flint).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from functools import cached_property
 from math import prod
 from numbers import Number
@@ -18,14 +19,16 @@ from sympy.polys.rings import PolyRing
 def in_sympy(value: object) -> sp.Basic | sp.MatrixBase:
     """A value of SymPy as it is, a number as one of SymPy's; raises TypeError for anything else.
 
-    `sympify`, even if it is strict, evaluates as code the texts in a list, a set or a mapping.
+    `sympify`, even if it is strict, evaluates as code the texts in a tuple, a set or a mapping; so nothing that holds
+    others gets there.
     """
     kind = type(value)
     if issubclass(kind, sp.Basic | sp.MatrixBase):
         return value
-    if not issubclass(kind, Number | fmpq | fmpz):
-        raise TypeError(f"{kind.__name__} is neither an expression of SymPy nor a number")
-    return sp.sympify(value)
+    if issubclass(kind, Number | fmpq | fmpz) and not issubclass(kind, Iterable):
+        with suppress(sp.SympifyError):
+            return sp.sympify(value, strict=True)
+    raise TypeError(f"{kind.__name__} is neither an expression of SymPy nor a number")
 
 
 class Quotient:

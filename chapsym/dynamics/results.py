@@ -538,6 +538,7 @@ class Trajectory:
         return self.time_step
 
 
+#: The first fields of a run: those that every run has.
 ARRAYS = tuple(field.name for field in fields(Trajectory))[:8]
 
 

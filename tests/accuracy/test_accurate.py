@@ -129,6 +129,19 @@ def test_what_roundings_were_seen_to_leave_counts_where_a_later_run_does_not_sho
     assert 1e-21 < found.estimate <= 1e-18
 
 
+def test_near_an_unstable_rotation_the_growth_of_roundings_counts():
+    """One sample of them may be small: 1.4e-23 m was stated where the ball was off by 8.3e-23 m."""
+    ball = chapsym.Ball(
+        (0.3618979240902212, 0.1331306112339249, 0.03243033231753174), 0.26992865026364055, 4.97852318674
+    )
+    K = (-0.07614836878715105, -0.3527671634300968, -0.01217904815469673)
+    gamma = (-0.8127576311225295, 0.567918262390589, -0.12997646054323994)
+    with pytest.raises(BadInput, match="rounding alone is larger"):
+        accurate(ball, K, gamma, 72.87190395268492, 3e-22, of="contact", attitude=True)
+    found = accurate(ball, K, gamma, 72.87190395268492, 1e-21, of="contact", attitude=True)
+    assert 1e-22 < found.estimate <= 1e-21
+
+
 def test_a_free_top_is_followed_and_a_ball_at_rest_stays_to_any_accuracy():
     found = accurate(chapsym.Ball((1, 2, 4), 0.0), (3.0, -1.0, 2.0), GAMMA, 50.0, 1e-9)
     assert error_of(found) <= found.estimate <= 1e-9

@@ -3,6 +3,7 @@
 import builtins
 from contextlib import suppress
 from fractions import Fraction
+from numbers import Number
 
 import numpy as np
 import pytest
@@ -79,6 +80,10 @@ class Shown:
         return TEXT
 
 
+class Counted(Number, tuple):
+    """A number that is a tuple, too, which SymPy reads item by item."""
+
+
 class Loose(list):
     def __iter__(self):
         raise KeyError("loose")
@@ -88,7 +93,8 @@ ODD = [
     None, 1.5, float("nan"), Fraction(1, 3), 10**400, "", "x", [], {}, [None], (x, TEXT), {x: None}, {x: TEXT},
     {x: [TEXT]}, {"a": [TEXT]}, {"a": {1: TEXT}}, {1: TEXT}, {TEXT}, {TEXT: 1}, frozenset([TEXT]), TEXT, [TEXT],
     [[TEXT]], np.array([TEXT]), np.array([TEXT], dtype=object), np.array(TEXT, dtype=object), Shown(), [Shown()],
-    {x: Shown()}, {"a": Shown()}, Unwilling(), [Unwilling()], {x: Unwilling()}, Loose([x]), x, [x, x], sp.nan, sp.I,
+    {x: Shown()}, {"a": Shown()}, Unwilling(), [Unwilling()], {x: Unwilling()}, Loose([x]), Counted([TEXT]), x,
+    [x, x], sp.nan, sp.I,
     sp.Symbol("x", positive=True), sp.Symbol("x", commutative=False), sp.Eq(x, y), sp.Matrix([x]), SLED, np.array(1.5),
 ]  # fmt: skip
 
