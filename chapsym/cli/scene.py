@@ -77,14 +77,19 @@ def check(file: Annotated[Path, argument("SCENE.toml", "What to read.")], as_jso
     """
     from chapsym.dynamics import BadInput
     from chapsym.scene import load
+    from chapsym.scene.members.exactly import exact_motion
     from chapsym.scene.members.members import expand
     from chapsym.scene.plan.plan import explained, planned
+    from chapsym.scene.result.proved import check_outputs
     from chapsym.scene.result.summary import refusals, summary
 
     try:
         scene = load(file)
         members = expand(scene)
         plan = planned(members, scene.task())
+        if scene.run.proved and not scene.maps:
+            check_outputs(scene.run.names())
+            exact_motion(scene)
         warnings = refusals(scene, members)
         rows = [] if as_json else [*summary(scene, members), *explained(plan)]
     except BadInput as error:

@@ -46,6 +46,13 @@ def test_the_map_is_that_of_trajectory_to_the_bit_and_omega_and_the_energy_are_t
     assert np.abs((K * omega).sum(-1) / 2 / columns["energy"] - 1).max() < 1e-13
 
 
+def test_what_float64_cannot_tell_is_refused():
+    """A rod along the vertical, whose spin has no inertia."""
+    rod = Members(np.array(["rod"]), chapsym.Ball([(0, 0, 1)], [1e17]), np.array([[0.1, 0.2, 0.3]]), np.eye(3)[2:])
+    with pytest.raises(chapsym.BadInput, match="omega is beyond the range of float64"):
+        rolled(planned(rod, Task(("omega",), 0, 1, 0.01)))
+
+
 def test_only_what_is_asked_for_is_followed_and_kept(members):
     plan = planned(members(), Task(("energy",), 100, 1, 0.01))
     assert plan.needed == {"momentum", "gamma"}

@@ -88,12 +88,16 @@ def test_a_scene_may_ask_for_the_proof_and_its_bounds_are_in_the_result(scene, b
     ("proved = true\nmap = true\ntime_step = 0.125\noutputs = [\"energy\"]", "x.npz", "ask for one in run.outputs"),
     ("proved = true\nprecision = \"single\"\ntime_step = 0.125", "x.npz", "bounds are proved in double and"),
     ("proved = true\noutputs = [\"energy\"]", "x.npz", "ask for one in its outputs"),
+    ("proved = true\n# several", "x.npz", "certified digits are of one ball; this scene has several, or a range"),
 ])  # fmt: skip
 def test_what_cannot_be_proved_is_refused_before_the_run(tmp_path, more, output, said):
     path = tmp_path / "asks.toml"
-    path.write_text(f"{BALL}time = 1.0\nframes = 8\n{more}\n")
+    ball = BALL.replace("[3.0,", "[{ linspace = [3, 4, 2] },") if "several" in more else BALL
+    path.write_text(f"{ball}time = 1.0\nframes = 8\n{more}\n")
     assert said in refused("run", path, "-o", tmp_path / output)
     assert not (tmp_path / output).exists()
+    if output != "x.zarr":  # of which `scene check` does not know
+        assert said in refused("scene", "check", path)
 
 
 @pytest.mark.parametrize(("error", "said"), [

@@ -179,7 +179,7 @@ def _check_outputs(members: Members, task: Task) -> None:
 # From the columns of a model to the requested outputs: derived outputs, in the axes of the user.
 
 
-@np.errstate(over="ignore", invalid="ignore")  # the square of a momentum may be beyond float64
+@np.errstate(all="ignore")  # what is beyond float64 is refused in a sentence
 def asked_for(members: Members, task: Task, columns: Columns) -> Columns:
     """The requested outputs of a task, from the columns of a model in principal axes."""
     found: Columns = {}
@@ -199,6 +199,8 @@ def _derived(name: str, members: Members, task: Task, columns: Columns) -> np.nd
             where = missing.reshape(*missing.shape, *[1] * (values.ndim - 2))
             columns[key] = np.where(where, _vertical(members) if key == "gamma" else 0.0, values)
     values = np.array(_value(name, members, task, columns), dtype=np.float64)
+    if not np.isfinite(values[~missing]).all():
+        raise BadInput(f"{name} is beyond the range of float64; take other units")
     values[missing] = np.nan
     return values
 
