@@ -27,8 +27,7 @@ from chapsym.dynamics.ball import (
     unit_vertical,
 )
 from chapsym.dynamics.certified import exactly
-from chapsym.dynamics.coefficients import substeps
-from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
+from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, weights
 from chapsym.dynamics.levels.proved import lengths
 from chapsym.dynamics.loops.double_double import FIRST
 from chapsym.dynamics.map import MOST_STEPS as MOST_FRAMES
@@ -37,7 +36,7 @@ from chapsym.dynamics.results import some_frames
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, in_words, pairs
 
 from . import motion
-from .motion import MARGIN, Motion, Problem
+from .motion import FEWEST, LESS, LIKELY, MARGIN, Motion, Problem
 
 #: The quantities that an accuracy may refer to.
 NORMS = ("state", "contact")
@@ -197,13 +196,6 @@ class Method:
         """The columns of `extrapolate`; 0 for the other methods."""
         return self.order // 2 if self.order > COMPOSED[-1] else 0
 
-    @property
-    def stages(self) -> int:
-        """Steps of the map in a step."""
-        if self.columns:
-            return stages_of(self.columns, FIRST if isinstance(self.precision, DoubleDouble) else 0)
-        return len(substeps(self.order or 2))
-
 
 def label_of(precision: Precision) -> str:
     """The name of a precision in JSON and in the measured prices: "double", "digits30"; "quad" for double-double."""
@@ -282,13 +274,6 @@ def _extrapolated(
 
 #: Nominal seconds of a stage in double-double.
 STAGE = 3e-7
-#: In double-double the error of c columns after t seconds is about DOUBLED^c (|ω|h)^(2c) (1 + |ω|t), within a factor of
-#: five of the median of 40 random balls.  LONGEST is the longest trial step in radians.
-DOUBLED, LONGEST = 0.0125, 2.0
-#: Runs have at least FEWEST columns, and are compared with runs of LESS columns fewer, also of high order.
-FEWEST, LESS = 7, 2
-#: The factor from the distance of two runs to the error estimate: if both are exact to rounding, it is one sample.
-LIKELY = 4.0
 #: The assumed unit roundoff of double-double: a few units of its last place.
 ROUNDED = 2.0**-103
 #: The relative change of K at the start by which the growth of errors is measured; and the fraction of the expected
@@ -527,14 +512,13 @@ def _doubled(request: Request, limit: float, finer: float = 1.0, noisy: float = 
     """
     precision, found = NAMED["double-double"], []
     for columns in range(FEWEST, MOST_OF_PAIRS + 1):
-        method, coarse = Method(precision, 2 * columns), Method(precision, 2 * (columns - LESS))
-        law = DOUBLED**coarse.columns * (1 + request.angle) * request.unit
-        wanted = finer * request.angle * max((law / (MARGIN * request.accuracy)) ** (1 / coarse.order), 1 / LONGEST)
+        method = Method(precision, 2 * columns)
+        wanted = finer * motion.steps_of(columns, request.angle, request.unit, request.accuracy)
         if not wanted < MOST_STEPS:
             continue
         every = checks(request, method)
         steps = every * max(1, math.ceil(wanted / every))
-        seconds = steps * (method.stages + coarse.stages) * STAGE
+        seconds = steps * motion.stages(columns) * STAGE
         if noisy * _rounded(request, columns, steps) <= motion.ROUNDING * request.accuracy:
             found.append(Choice(method, steps, request.time / steps, seconds))
     if not found:

@@ -5,12 +5,10 @@ Each ball has long steps of order 12, as long as the accuracy allows; frames ins
 It is an estimate, since the size of the error of a step (`loops.following.left`) and its direction are estimates.  A
 ball whose error is larger than the accuracy is followed again with shorter steps.
 
-If the rounding of long steps is too large, compositions of the map are used.  The error of an order p after t seconds
-is about c (|ω|h)^p (1 + |ω|t), with nearly the same c for all balls that are not near a separatrix.  A run is compared
-with one of fewer steps, and by Richardson's rule its own error is their difference / (r^p - 1), where r is the ratio of
-the steps; the estimate is `SAFETY` times this.  A run that fails corrects the law, and is repeated with more steps.  If
-errors do not yet fall at their order, two runs may agree by chance: no estimate is less than `SAFETY` times the error
-by the corrected law, and a run is rejected if its predecessor, with half as many steps, has stopped.
+A ball for which the rounding of these steps is too large is followed in double-double, by long steps of order up to 24.
+A run is compared with one of a lower order, which starts a few roundings away, to show the sensitivity of the ball to
+its start; the estimate is `LIKELY` times their difference.  Frames inside a step are reached from its start in double
+precision.
 """
 
 from __future__ import annotations
@@ -18,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import partial
 from typing import Any, Literal
 
@@ -30,10 +29,10 @@ from chapsym.dynamics import (
     Status,
     StepNotTaken,
     Trajectory,
+    extrapolate,
     is_steady,
     kernels,
     native,
-    substeps,
     trajectory,
 )
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
@@ -53,10 +52,10 @@ from chapsym.dynamics.ball import (
     unit_vertical,
 )
 from chapsym.dynamics.enclosed_motion import of_motion
-from chapsym.dynamics.extrapolation import FEW, loop_weights, of_some
+from chapsym.dynamics.extrapolation import FEW, MOST_OF_PAIRS, loop_weights, of_some, stages_of
 from chapsym.dynamics.levels.frames import Count, cores, share, watched
 from chapsym.dynamics.levels.proved import lengths
-from chapsym.dynamics.loops import following, records
+from chapsym.dynamics.loops import double_double, following, records
 from chapsym.dynamics.loops.expected import (
     ALLOWED,
     CONDITION,
@@ -90,7 +89,7 @@ FINEST, ROUNDING = 1e-12, 0.5
 #: The largest number of runs of a ball by long steps, and the fraction of the accuracy at which those after the first
 #: aim.
 TRIES, AIM = 4, 0.4
-#: The rounding of a composition, in roundings of the start, which then grow with the motion.
+#: The error of the start, in roundings, which then grow with the motion.
 SENSITIVE = 16.0
 #: The least factor that is applied to the error of a step at once.
 FINER = 1e-6
@@ -102,29 +101,28 @@ QUICK, MOSTLY = 0.2, 0.99
 PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
 #: Quantities with errors as large as those of the attitude.
 TURNED = frozenset({"momentum", "gamma", "attitude"})
-#: The order of long steps with all columns; lower orders are those of the map and its compositions.
+#: The order of long steps with all columns.
 EXTRAPOLATED = 2 * MOST_COLUMNS
 #: The vertical in space; and the signs of the conjugate quaternion.
 _UP, _INVERSE = np.array([0.0, 0.0, 1.0]), np.array([1.0, -1.0, -1.0, -1.0])
-#: c of each order, measured on balls of all shapes; and the fraction of the accuracy at which the law aims.
-LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
-#: The safety factor on Richardson's rule, and the ratio of the compared steps.
-SAFETY, RATIO = 4.0, 1.5
-#: One verified run is enough up to this many times the error that is expected from the order, or from rounding.
-LAWFUL, FINE = 2.0, 100.0
+#: In double-double the error of c columns after t seconds is about DOUBLED^c (|ω|h)^(2c) (1 + |ω|t), within a factor of
+#: five of the median of 40 random balls.  LONGEST is the longest trial step in radians, and MARGIN the fraction of the
+#: accuracy at which the law aims.
+DOUBLED, LONGEST, MARGIN = 0.0125, 2.0, 0.1
+#: Runs have at least FEWEST columns, and are compared with runs of LESS columns fewer, also of high order.
+FEWEST, LESS = 7, 2
+#: The least part of the long steps in double precision; and the largest estimate of these, in accuracies, that is
+#: compared with a run in double-double, if it is SMALL: of runs that are far from the motion any two may agree.
+SHARE, NEAR, SMALL = 0.5, 8.0, 1e-3
+#: The factor from the distance of two runs to the error estimate: if both are exact to rounding, it is one sample.
+LIKELY = 4.0
 #: The least number of times at which two runs are compared: at one time they may agree by chance, after different ways.
 COMPARED = 32
-#: The rounding error of a stage of the map in the heading of the contact point, in roundings: the median of 40 balls
-#: was .001, the largest .012.
-DRIFT = 0.02
-#: The factor on the estimate of compositions where long steps are not accurate enough: near a separatrix errors do not
-#: fall at their order, and two errors of 300 starts were above their estimates, the larger 2.9 times.
-DOUBTED = 4.0
 #: The difference of the start of a verifying run from that of the run, in roundings.
-ROUNDED = 8
+ROUNDED = 2
 #: A generic direction.
 ASIDE = np.array([0.6, 0.64, 0.48])
-#: The largest number of trial runs, and the least and the largest ratio of the steps of successive runs of an order.
+#: The largest number of trial runs, and the least and the largest ratio of the steps of successive runs.
 ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
 
 
@@ -385,11 +383,6 @@ class Motion:
     order: np.ndarray
     total: np.ndarray
 
-    @property
-    def steps(self) -> np.ndarray:
-        """The largest number of steps between two frames, of each ball, (n,)."""
-        return -(-self.total // max(self.gamma.shape[1] - 1, 1))
-
     def of(self, some: np.ndarray) -> Motion:
         """Some of the balls."""
         arrays: dict[str, Any] = {name: None if array is None else array[some] for name, array in vars(self).items()}
@@ -484,21 +477,6 @@ class Problem:
         if found.attitude is not None:
             found.attitude[:, 0] = self.attitude
         return found
-
-    def take(
-        self, order: int, steps: int, stride: int = 1, progress: Callable[[int], None] = lambda steps: None
-    ) -> Motion:
-        """The balls at every `stride`-th frame, by `steps` steps of a composition between these frames."""
-        step, total = stride * self.interval / steps, steps * (self.frames // stride)
-        run = trajectory(
-            self.ball, step * self.K, self.gamma, total, order=order, every=steps, time_step=step,
-            attitude=False if self.attitude is None else self.attitude, contact=self.contact, threads=self.threads,
-            progress=progress,
-        )  # fmt: skip
-        how = (np.full(len(self), x) for x in (np.nan, order, total))
-        return Motion(
-            run.angular_momentum(), run.gamma, run.attitude, run.contact, run.taken // steps, run.status, *how
-        )
 
 
 def nominal(problem: Problem) -> float:
@@ -600,10 +578,9 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
     if len(poor):
         part = problem.of(poor)
-        stricter = replace(part, accuracy=part.accuracy / DOUBTED)
-        other = composed(stricter, partial(report, others=len(problem) - len(poor)))
-        other.error[:] = DOUBTED * other.error + np.nan_to_num(SENSITIVE * started[poor])
-        # This estimate may miss the sensitivity of a ball: it is used if it is within the accuracy, or the only one.
+        of_start, further = np.nan_to_num(started[poor]), partial(report, others=len(problem) - len(poor))
+        other = doubled(part, found.of(poor), of_start, further)
+        # Other estimates are of runs that are far from the motion.
         better = (other.error <= accuracy) | (found.status[poor] != Status.TAKEN)
         found.put(poor[better], other.of(better))
     progress(len(problem))
@@ -670,109 +647,141 @@ def _run(
     return worst, noise, started
 
 
-def composed(problem: Problem, progress: Callable[[float], None] = lambda part: None) -> Motion:
-    """Runs all balls until each is verified, with more steps for the others.
+def steps_of(columns: int, angle: Any, unit: Any, accuracy: float) -> Any:
+    """The long steps in double-double by the law: with `LESS` columns fewer, `MARGIN` of the accuracy is reached."""
+    fewer = columns - LESS
+    law = DOUBLED**fewer * (1 + angle) * unit
+    return angle * np.maximum((law / (MARGIN * accuracy)) ** (0.5 / fewer), 1 / LONGEST)
 
+
+def stages(columns: int) -> int:
+    """The steps of the map in a long step in double-double and in that of the run it is compared with."""
+    return stages_of(columns, double_double.FIRST) + stages_of(columns - LESS, double_double.FIRST)
+
+
+def doubled(
+    problem: Problem, long: Motion, started: Floats, progress: Callable[[float], None] = lambda part: None
+) -> Motion:
+    """Follows all balls in double-double until each is verified, with more steps for the others.
+
+    long: the balls by long steps in double precision; started: the estimated effect of the rounding of the start, (n,).
     Steps and estimates of a ball depend only on the ball; balls of the same steps share a run.  A ball that more steps
-    do not improve keeps its error: rounding alone is larger than the accuracy.  If steps resonate, an error hardly
-    falls, which a single comparison may hide: an error far above the expectation of its order is assumed to fall by at
-    most half of the expected decades, and is verified twice.  Few frames are divided, to compare runs more often.
+    do not improve keeps its error: the effect of the start is larger than the accuracy.
     """
-    if (times := -(-COMPARED // problem.frames)) > 1:
-        often = replace(problem, interval=problem.interval / times, frames=problem.frames * times)
-        return composed(often, progress).every(times)
     n = len(problem)
-    found, left, (factor, gain) = problem.nothing(), np.arange(n), np.ones((2, n))
-    (before, verified), expected, (stopped, met) = np.full((2, n), np.inf), np.empty(n), np.zeros((2, n), dtype=bool)
-    found.order[:], steps = cheapest(problem, factor)
+    found, left, before = problem.nothing(), np.arange(n), np.full(n, np.inf)
+    columns, steps = cheapest(problem, long.total)
 
     def still(taken: int) -> None:
         """Counts verified balls; the callback may end the run."""
         progress(n - len(left))
 
-    for attempt in range(ATTEMPTS):
-        for order, count in sorted(set(zip(found.order[left].tolist(), steps[left].tolist(), strict=True))):
-            some = left[(found.order[left] == order) & (steps[left] == count)]
-            part = problem.of(some)
-            run = part.take(order, count, progress=still)
-            run.error[:] = _verified(part, order, count, run, still)
+    for _ in range(ATTEMPTS):
+        off, ways = np.empty(n), np.stack([columns, steps], axis=1)
+        for way in np.unique(ways[left], axis=0):
+            some = left[(ways[left] == way).all(axis=1)]
+            run, off[some] = _verified(problem.of(some), long.of(some), started[some], int(way[0]), int(way[1]), still)
             found.put(some, run)
-        expected[left] = _error(problem.of(left), found.order[left], problem.interval / steps[left])
-        error = np.maximum(found.error[left], SAFETY * factor[left] * expected[left])
-        lawful = error <= np.maximum(LAWFUL * SAFETY * expected[left], FINE * problem.survey[FLOOR, left])
-        last = before[left] / gain[left]
-        # The second run only confirms the error of the first.
-        held = np.where(met[left], before[left], verified[left] / gain[left])
-        error, verified[left] = np.maximum(error, np.where(lawful | np.isinf(held), 0.0, held)), error
-        fell, error = np.isfinite(error), np.where(stopped[left], np.inf, error)
-        found.error[left], stopped[left] = np.where(found.status[left] == Status.TAKEN, error, np.nan), ~fell
-        reached = error <= problem.accuracy
-        there, met[left] = reached & (lawful | met[left]), reached
-        there |= np.isfinite(last) & np.isfinite(error) & (error > last)
-        before[left], left = error, left[~there]
+        rounded = (off > before / 2) & (off <= SMALL * problem.units)
+        left, before = left[(~(found.error <= problem.accuracy) & ~rounded)[left]], off
         progress(n - len(left))
-        if not len(left) or attempt + 1 == ATTEMPTS:
+        if not len(left):
             break
-        part, order, taken = problem.of(left), found.order[left], steps[left]
-        known, taught = np.isfinite(before[left]), verified[left] / (SAFETY * expected[left])
-        factor[left] = np.where(known, np.maximum(factor[left], taught), factor[left])
-        wanted, finer = cheapest(part, factor[left])
-        least, most = LEAST_FINER * taken, MOST_FINER * taken
-        finer = np.where(wanted == order, shared(np.minimum(np.maximum(finer, least), most)), finer)
-        # A ball that stopped has no estimate of the steps that it needs.
-        found.order[left], steps[left] = np.where(known, wanted, order), np.where(known, finer, 2 * taken)
-        # More steps help if they gain half of the expected decades.
-        gain[left] = np.where(found.order[left] == order, (steps[left] / taken) ** (order / 2), 2.0)
+        more = (off[left] / (MARGIN * problem.accuracy)) ** (0.5 / (columns[left] - LESS))
+        more = np.where(np.isfinite(off[left]), np.clip(more, LEAST_FINER, MOST_FINER), 2.0)
+        steps[left] = shared(found.total[left] * more)
     return found
 
 
-def _error(problem: Problem, order: np.ndarray | int, step: np.ndarray | float) -> Floats:
-    """The error by the law, of each ball."""
-    rate, law = problem.rate, np.vectorize(LAW.get, otypes=[float])(order)
-    return np.asarray(law * (rate * step) ** order * (1 + rate * problem.end) * problem.units)
+def cheapest(problem: Problem, total: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The columns with the fewest stages for the accuracy by the law, and the steps, for each ball."""
+    angle, every = problem.rate * problem.end, range(FEWEST, MOST_OF_PAIRS + 1)
+    steps = np.array([steps_of(columns, angle, problem.units, problem.accuracy) for columns in every])
+    best = (steps * np.array([[stages(columns)] for columns in every])).argmin(axis=0)
+    wanted = np.take_along_axis(steps, best[np.newaxis], axis=0)[0]
+    return np.array(every)[best], shared(np.maximum(np.maximum(wanted, SHARE * total), COMPARED))
 
 
-def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
-    """The order with the fewest stages for the accuracy, and its steps, for each ball, at `factor` times the law.
-
-    There are enough steps to compare the last frame, as an error may grow a thousandfold within one frame.
-    """
-    found = []
-    for order in LAW:
-        expected = factor * _error(problem, order, problem.interval)
-        found.append(shared((expected / (MARGIN * problem.accuracy)) ** (1 / order), 1 + problem.frames % 2))
-    steps, stages = np.array(found), np.array([[len(substeps(order))] for order in LAW])
-    best = (steps * stages).argmin(axis=0)
-    return np.array(list(LAW))[best], np.take_along_axis(steps, best[np.newaxis], axis=0)[0]
-
-
-def shared(steps: Floats, least: int = 1) -> np.ndarray:
+def shared(steps: Floats) -> np.ndarray:
     """Whole steps, rounded up to one of four numbers per power of two, so that balls share them."""
     part, exponent = np.frexp(steps)
-    return np.maximum(np.ceil(np.ldexp(np.ceil(8 * part), exponent - 3)), least).astype(np.int64)
+    return np.maximum(np.ceil(np.ldexp(np.ceil(8 * part), exponent - 3)), 1).astype(np.int64)
 
 
-def _verified(problem: Problem, order: int, steps: int, run: Motion, progress: Callable[[int], None]) -> Floats:
-    """The error of each ball by a run of fewer steps, infinite for a ball that has stopped, and the effect of rounding.
+def _verified(
+    problem: Problem, long: Motion, started: Floats, columns: int, steps: int, progress: Callable[[int], None]
+) -> tuple[Motion, Floats]:
+    """The motion by at least `steps` steps, and its distance from one of fewer columns; infinite for a ball that stops.
 
-    The starts of the two runs differ by a few roundings, to show the sensitivity of a ball to its start.
+    The starts of the two runs differ by a few roundings, to show the sensitivity of a ball to its start.  A motion by
+    long steps in double precision whose estimate is nearly within the accuracy is compared first.
     """
-    stride, fewer = (2, 1) if steps == 1 else (1, 1 if steps == 2 else round(steps / RATIO))
-    left = (stride * steps / fewer) ** order - 1
-    share = min(SAFETY / left, max(1.0, 2 / left))
-    moved = ROUNDED * 2.0**-53 / share * lengths(problem.K)[:, np.newaxis] * ASIDE
-    coarse = replace(problem, K=problem.K + moved).take(order, fewer, stride, progress)
-    off = apart(problem, run, coarse, stride).max(axis=-1)
-    off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
-    # The expected rounding is that of steps as long as the motion allows; those between many frames are shorter.
-    terms = problem.frames * len(substeps(order)) * steps
-    rounded = problem.survey[FLOOR] + 2 * problem.units * 2.0**-53 * terms**0.5
-    if run.contact is not None and problem.ball.radius is not None and "contact" in problem.parts:
-        # The contact point is a sum of one term per step of the map; each term turns with the attitude, a product of as
-        # many rotations, whose roundings are partly the same.
-        way = np.nan_to_num(np.abs(run.contact)).max(axis=(-2, -1)) / problem.ball.radius + problem.rate * problem.end
-        rounded = rounded + problem.units * way * 2.0**-53 * (terms**0.5 + DRIFT * terms)
-    return np.asarray(off * share + rounded)
+    moved = problem.K + ROUNDED * 2.0**-53 * lengths(problem.K)[:, np.newaxis] * ASIDE
+    other = _long_steps(replace(problem, K=moved), columns - LESS, steps, progress)
+    times = (other.gamma.shape[1] - 1) // problem.frames
+    found, off = long.of(np.arange(len(problem))), apart(problem, long, other.every(times)).max(axis=-1)
+    near = long.error <= np.minimum(NEAR * problem.accuracy, SMALL * problem.units)
+    found.error[:] = np.where(near, _stated(problem, started, off), np.nan)
+    rest = np.flatnonzero(~(found.error <= problem.accuracy))
+    if len(rest):
+        few, partner = problem.of(rest), other.of(rest)
+        run = _long_steps(few, columns, steps, progress)
+        apart_of = apart(few, run, partner).max(axis=-1)
+        off[rest] = np.where(np.isnan(apart_of) | (partner.status != Status.TAKEN), np.inf, apart_of)
+        error = _stated(few, started[rest], off[rest]) + run.error
+        run.error[:] = np.where(run.status == Status.TAKEN, error, np.nan)
+        found.put(rest, run.every(times))
+    return found, off
+
+
+def _stated(problem: Problem, started: Floats, off: Floats) -> Floats:
+    """The error from the distance of two runs, and of the start and the last roundings."""
+    return LIKELY * off + problem.survey[FLOOR] + SENSITIVE * started
+
+
+def _long_steps(problem: Problem, columns: int, steps: int, progress: Callable[[int], None]) -> Motion:
+    """The frames by long steps in double-double, `COMPARED` or more, with the error of what is in double precision."""
+    frames = problem.frames
+    together, times = max(frames // steps, 1), -(-COMPARED // frames)
+    each = 1 if together > 1 else -(-steps // (frames * times))
+    ends = frames * times if together == 1 else (frames - 1) // together
+    run = extrapolate(
+        problem.ball, problem.K, problem.gamma, Fraction(problem.interval) * together / (times * each), ends * each,
+        columns=columns, every=each, attitude=False if problem.attitude is None else problem.attitude,
+        contact=problem.contact, precision="double-double", threads=problem.threads, progress=progress,
+    )  # fmt: skip
+    reached = run.taken // each * together // times
+    how = np.zeros(len(problem)), np.full(len(problem), 2 * columns), np.full(len(problem), ends * each)
+    found = Motion(run.angular_momentum, run.gamma, run.attitude, run.contact, reached, run.status, *how)
+    return found if together == 1 else _filled(problem, found, together)
+
+
+def _filled(problem: Problem, ends: Motion, together: int) -> Motion:
+    """All frames, from every `together`-th frame, by long steps in double precision from each of these."""
+    some, count = np.flatnonzero(ends.status == Status.TAKEN), ends.gamma.shape[1]
+    few, starts = problem.of(some).ball, ends.of(some)
+
+    def flat(x: Any) -> Any:
+        return None if x is None else x.reshape(-1, x.shape[-1])
+
+    balls = (None if x is None else np.repeat(x, count, axis=0) for x in (few.mass_tensor, few.D, few.radius))
+    K, gamma, attitude = (flat(x) for x in (starts.angular_momentum, starts.gamma, starts.attitude))
+    part = replace(problem, ball=checked_before(*balls), K=K, gamma=gamma, frames=together, attitude=attitude)  # type: ignore[arg-type]
+    inside = part.nothing()
+    _run(part, part.survey[FIRST], part.survey[ALLOWED], inside, lambda done: None, True)
+    if inside.contact is not None:
+        inside.contact += flat(starts.contact)[:, np.newaxis]
+    found = problem.nothing()
+    for name in ("angular_momentum", "gamma", "attitude", "contact"):
+        if (several := getattr(inside, name)) is not None:
+            whole, rows = getattr(found, name), several[:, 1:].reshape(-1, count * together, several.shape[-1])
+            whole[:, 1:] = np.nan
+            whole[some, 1:] = rows[:, : problem.frames]
+    found.status[:], found.order[:], found.total[:] = ends.status, ends.order, ends.total
+    found.status[some] = inside.status.reshape(-1, count).max(axis=1, initial=Status.TAKEN)
+    found.error[some] = inside.error.reshape(-1, count).max(axis=1, initial=0.0)
+    found.reached[:] = np.where(found.status == Status.TAKEN, problem.frames, 0)
+    return found
 
 
 def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
@@ -788,15 +797,15 @@ def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
 
 
 @np.errstate(all="ignore")  # later frames are NaN
-def apart(problem: Problem, run: Motion, other: Motion, stride: int = 1) -> Floats:
-    """The distance of two runs at each common frame, (n, frames); `other` has every `stride`-th frame of `run`.
+def apart(problem: Problem, run: Motion, other: Motion) -> Floats:
+    """The distance of two runs at each frame, (n, frames).
 
     The largest of the requested parts: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle
     between the attitudes in radians, and the distance of the contact points in radii; times the radius, if the accuracy
     is in metres.
     """
     radius = 1.0 if problem.ball.radius is None else problem.ball.radius[:, np.newaxis]
-    K, L, gamma = run.angular_momentum[:, ::stride], other.angular_momentum, run.gamma[:, ::stride]
+    K, L, gamma = run.angular_momentum, other.angular_momentum, run.gamma
     found, parts = [np.zeros(gamma.shape[:2])], problem.parts
     if "gamma" in parts:
         found.append(lengths(gamma - other.gamma))
@@ -807,10 +816,10 @@ def apart(problem: Problem, run: Motion, other: Motion, stride: int = 1) -> Floa
         off = lengths(omega - omega_of(problem, L, other.gamma))
         found.append(_over(off, np.nanmax(lengths(omega), axis=-1, keepdims=True)))
     if "attitude" in parts and problem.attitude is not None:
-        q, p = run.attitude[:, ::stride], other.attitude
+        q, p = run.attitude, other.attitude
         found.append(4 * np.arcsin(np.minimum(np.minimum(lengths(q - p), lengths(q + p)) / 2, 1.0)))
     if "contact" in parts and problem.contact:
-        found.append(lengths(run.contact[:, ::stride] - other.contact) / radius)
+        found.append(lengths(run.contact - other.contact) / radius)
     return np.asarray(np.max(found, axis=0) * (radius if problem.metres else 1.0))
 
 
