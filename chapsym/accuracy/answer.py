@@ -27,7 +27,8 @@ from chapsym.dynamics.ball import (
     unit_vertical,
 )
 from chapsym.dynamics.certified import exactly
-from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, weights
+from chapsym.dynamics.coefficients import substeps
+from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
 from chapsym.dynamics.levels.proved import lengths
 from chapsym.dynamics.loops.double_double import FIRST
 from chapsym.dynamics.map import MOST_STEPS as MOST_FRAMES
@@ -195,6 +196,13 @@ class Method:
     def columns(self) -> int:
         """The columns of `extrapolate`; 0 for the other methods."""
         return self.order // 2 if self.order > COMPOSED[-1] else 0
+
+    @property
+    def stages(self) -> int:
+        """Steps of the map in a step."""
+        if self.columns:
+            return stages_of(self.columns, FIRST if isinstance(self.precision, DoubleDouble) else 0)
+        return len(substeps(self.order or 2))
 
 
 def label_of(precision: Precision) -> str:

@@ -383,6 +383,11 @@ class Motion:
     order: np.ndarray
     total: np.ndarray
 
+    @property
+    def steps(self) -> np.ndarray:
+        """The largest number of steps between two frames, of each ball, (n,)."""
+        return -(-self.total // max(self.gamma.shape[1] - 1, 1))
+
     def of(self, some: np.ndarray) -> Motion:
         """Some of the balls."""
         arrays: dict[str, Any] = {name: None if array is None else array[some] for name, array in vars(self).items()}

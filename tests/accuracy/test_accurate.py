@@ -14,7 +14,7 @@ from budget import slow
 import chapsym
 import chapsym.numbers
 from benchmarks.trade.frontiers import continuous, true_error, truth
-from chapsym.accuracy import Method, Request, accurate, answer, distance, foreseen, take
+from chapsym.accuracy import Method, Request, accurate, answer, distance, foreseen, motion, take
 from chapsym.accuracy.answer import exact_values
 from chapsym.dynamics import BadInput, kernels
 from chapsym.dynamics.attitudes import initial_attitude
@@ -106,7 +106,7 @@ def test_what_float64_can_promise_of_a_contact_is_of_the_size_of_the_ball():
 
 def test_a_law_that_promises_too_much_is_found_out(monkeypatch):
     """In double-double all errors are thought 4^10 times smaller than they are: the comparison must notice."""
-    monkeypatch.setattr(answer, "DOUBLED", answer.DOUBLED / 4)
+    monkeypatch.setattr(motion, "DOUBLED", motion.DOUBLED / 4)
     found = asked(1e-15, "state")
     assert len(found.attempts) > 1
     assert found.attempts[0].estimate > 1e-15
