@@ -8,6 +8,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -31,6 +32,17 @@ class Return(Orbit):
     """The starts of a certificate, and their returns; `time`: the approximate time of return."""
 
     time: Fraction
+
+    def __init__(self, data: Document, progress: Callable[[str], None]):
+        super().__init__(data)
+        step = self.flow.step
+
+        def reported(*given: Any) -> Any:
+            """Reports each step: one of many digits takes seconds."""
+            progress(f"the orbit is enclosed, step {self.flow.steps + 1}")
+            return step(*given)
+
+        self.flow.step = reported  # type: ignore[assignment, method-assign]
 
     def crossing(self, models: Sequence[Model], length: int, wanted: Interval) -> Interval:
         """The return as in `Orbit`, in the last step, which begins at `early`; sets `time`."""
@@ -89,6 +101,7 @@ def listed(values: Sequence[object]) -> str:
     return f"({', '.join(map(str, values))})"
 
 
+@np.errstate(all="ignore")  # what is beyond float64 is refused
 def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[int, int]:
     """The section and the component along it that separate states best, including the flow across the section."""
     w = np.linalg.solve(np.diag(J.sum() - J + D) - D * np.outer(g, g), K)
@@ -99,7 +112,10 @@ def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[i
     def value(pair: tuple[int, int]) -> float:
         return abs(float(np.linalg.det([*gradients, *np.eye(6)[[*pair]]]) * rates[pair[0]]))
 
-    return max(itertools.permutations(range(6), 2), key=value)
+    values = {pair: value(pair) for pair in itertools.permutations(range(6), 2)}
+    if not np.isfinite(list(values.values())).all():
+        raise OverflowError
+    return max(values, key=values.__getitem__)
 
 
 def refined(fields: Document, digits: int, progress: Callable[[str], None]) -> Document:
@@ -108,7 +124,7 @@ def refined(fields: Document, digits: int, progress: Callable[[str], None]) -> D
     momentum = [Fraction(x) for x in fields["start"]["momentum"]]
     before: tuple[Fraction, Fraction] | None = None
     for _ in range(ROUNDS):
-        orbit, here = Return(dict(fields)), momentum[varied]
+        orbit, here = Return(dict(fields), progress), momentum[varied]
         miss = middle(missed(orbit, *orbit.returned(0, 0, integrals=False)[:2]))
         progress(f"the orbit misses its start by {float(miss):.1e}")
         slope = (miss - before[1]) / (here - before[0]) if before else None

@@ -9,6 +9,7 @@ nearly integrable, ⟨𝒦, γ⟩ hardly changes along the family.
 """
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise, product
@@ -17,11 +18,13 @@ import numpy as np
 from flint import arb
 
 from chapsym.dynamics.ball import Ball, Floats
+from chapsym.dynamics.errors import TooWide
 from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import fraction
 from chapsym.dynamics.loops.vectors import cross, dot
 from chapsym.dynamics.map import step
 
+from .balls import NotProved
 from .passage import Level, Map, Vector, columns
 
 #: Starts along each of the angles of 𝒦 and γ, the most Newton iterations, their largest correction, and the tolerance.
@@ -29,6 +32,8 @@ GRID, ROUNDS, LONGEST, SETTLED = (8, 16), 24, 0.2, 1e-11
 DIFFERENCE = 1e-6
 #: The computed members of a family, their distance, Newton iterations for each, and halvings of the distance.
 MEMBERS, APART, CORRECTIONS, HALVINGS = 16, 0.02, 6, 6
+#: The errors of a family that cannot be followed with so few bits.
+LOST = (NotProved, TooWide, ZeroDivisionError)
 #: The tolerance for equal ⟨𝒦, γ⟩ of equal families; and the variation of γ_i below which a motion is a steady rotation.
 SAME = 1e-7
 
@@ -56,7 +61,8 @@ def families(level: Level, steps: int, progress: Callable[[str], None]) -> Itera
             continue
         found.append(height)
         progress(f"orbits of {steps} steps: the family {len(found)}, with <momentum, gamma> = {height:.9f}")
-        yield _followed(level, steps, state)
+        with suppress(*LOST):
+            yield _followed(level, steps, state)
 
 
 def _symmetric(level: Level, steps: int) -> Iterator[Floats]:

@@ -89,8 +89,7 @@ def no_invariant_measure(
     if digits is not None and digits < least:
         raise BadInput(f"{digits} digits are too few for this displacement and level; take {least} or more")
     if not Reduced(top).is_small:
-        progress("proving the branch over the whole circle")
-        at = replace(at, arcs=_arcs(top, at, least))
+        at = replace(at, arcs=_arcs(top, at, least, progress))
     return _largest(top, at, least if digits is None else digits, digits is not None, radius, progress)
 
 
@@ -142,10 +141,11 @@ def _least_digits(top: Top, at: Resonance) -> int:
     raise BadInput(f"{MOST_DIGITS} digits do not distinguish the displacement on this level from 0")
 
 
-def _arcs(top: Top, at: Resonance, digits: int) -> int:
+def _arcs(top: Top, at: Resonance, digits: int, progress: Callable[[str], None]) -> int:
     """The least power of 2 of arcs for which the checker accepts the branch; raises BadInput if none is found."""
     arcs, reason = FEWEST_ARCS, ""
     while arcs <= MOST_ARCS:
+        progress(f"proving the branch over the whole circle, in {arcs} arcs")
         try:
             fields = _fields(top, replace(at, arcs=arcs), Fraction(0), digits)
             branch_of(Circle(fields), fields)

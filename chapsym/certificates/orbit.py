@@ -6,6 +6,7 @@ Newton's method finds it, with as many bits as the checker needs for its proof.
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -28,6 +29,8 @@ from .passage import Level, Map, Passage, Vector, identity
 KIND = "periodic-orbit"
 #: The working bits for families; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along a family.
 SEARCH_BITS, RESOLVED = 256, 160
+#: The largest number whose square is within float64.
+FAR = 2**500
 #: The least number of decimals beyond those of det(1 - DG^q); by default one more per step, for the growth of boxes.
 SIGNIFICANT, SPARE_DIGITS = 3, 20
 #: A bound of the decimals that a box of parameters loses in a step.
@@ -90,6 +93,8 @@ def _check(
 ) -> None:
     if len(set(J)) < 3 or min(J) < 0:
         raise BadInput("the three entries of J must differ and be at least 0: else a measure is preserved")
+    if max(*J, D, size) > FAR:
+        raise BadInput("the search begins in float64, for which the numbers are too large")
     if D <= 0:
         raise BadInput("D must be positive: for D = 0 the map preserves a volume, and det DG^q = 1")
     if size <= 0:
@@ -116,12 +121,13 @@ def _found(
             if not inside or high - low < max(Fraction(1, 2**RESOLVED), best[0] if best else Fraction(0)):
                 continue
             at = replace(level, height=simplest(low, high) if height is None else height)
-            member = families.near(at, steps, family)
-            W = Map.of(level).passage(member.momentum, member.gamma, steps).derivative()
-            if W.det() > 1:
-                member, W = member.mirrored(), W.inv()
-            if not attracting or attracts(*multipliers(W)):
-                best = high - low, at, member
+            with suppress(*families.LOST):
+                member = families.near(at, steps, family)
+                W = Map.of(level).passage(member.momentum, member.gamma, steps).derivative()
+                if W.det() > 1:
+                    member, W = member.mirrored(), W.inv()
+                if not attracting or attracts(*multipliers(W)):
+                    best = high - low, at, member
     if best is None:
         where = "" if height is None else f" with <momentum, gamma> = {shortest(height)}"
         kind = "attract" if attracting else "are not symmetric"

@@ -98,7 +98,10 @@ def _middle(
     progress: Callable[[str], None],
 ) -> Fraction:  # fmt: skip
     """The simplest level in the middle half of the plateau, at a precision that is doubled until it is resolved."""
-    bits = math.ceil(-plateau.nome_power(top, near[0], axes, steps)) + spare_bits(steps)
+    power = plateau.nome_power(top, near[0], axes, steps)
+    if not math.isfinite(power):
+        raise BadInput("the moments of inertia are too far apart for the search")
+    bits = math.ceil(-power) + spare_bits(steps)
     while bits < MOST_DIGITS * 10 // 3:
         progress(f"looking for {steps} steps around axis {axes[2] + 1} with {bits} bits")
         with flint_bits(bits):

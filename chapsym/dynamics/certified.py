@@ -173,7 +173,7 @@ def _orbit(
     trajectory: Trajectory, given: dict[str, Any], bits: int, progress: Callable[[int], None]
 ) -> tuple[dict[str, np.ndarray | None], np.ndarray]:
     """The frames of the true orbit, and the number of selected rotations of each ball."""
-    from .levels.balls import run  # 40 ms, with mpmath and flint
+    from .levels.balls import exact, run  # 40 ms, with mpmath and flint
 
     index, count = trajectory.index, len(trajectory.index)
     every = int(index[1] - index[0]) if count > 1 else 1
@@ -206,6 +206,9 @@ def _orbit(
                 f"the true orbit{f' of ball {i}' if shape else ''} does not take step {int(part.taken[0])}:"
                 f" {Status(int(part.status[0])).sentence}"
             )
+        if first["contact"] is not None and any(first["contact"][i]):
+            with flint_bits(2 * bits + 128):  # the run starts at (0, 0)
+                part.contact[0] += [exact(x) for x in first["contact"][i]]
     found = {name: None if first[name] is None else in_shape(shape, x) for name, x in zip(NAMES, arrays, strict=True)}
     return found, np.array(selected, dtype=np.int64).reshape(shape)
 

@@ -126,7 +126,7 @@ def explain(status: int, K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float) 
             return Status.UNREACHABLE
         if rounded:
             return Status.NOT_CONVERGED
-        if k.any():
+        if k.any() and np.isfinite(k).all():  # a momentum below float64 has no direction
             most = largest_momentum(k, g, np.ldexp(J, shift), float(np.ldexp(D, shift)))
             if np.linalg.norm(k) > most * (1 + 1e-12):
                 return Status.UNREACHABLE

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from copy import deepcopy
 from functools import partial
+from math import isfinite
 from operator import attrgetter
 from typing import Any
 
@@ -324,15 +326,23 @@ class Stepper(UnderWay):
         """
         if self._proof is None:
             self._proof = Proof(self)
-        return self._proof.bounds(self)
+        try:
+            return self._proof.bounds(self)
+        except BaseException:  # an interrupt may have left it at other steps than it counts
+            self._proof = None
+            raise
 
     @property
     def omega(self) -> Floats:
-        """ω in rad/s for K = 𝒦/ε, in body axes, (3,); raises BadInput if there is no time step."""
+        """ω in rad/s for K = 𝒦/ε, in body axes, (3,); raises BadInput if there is no time step, or beyond float64."""
         if self.time_step is None:
             raise BadInput("this Stepper has no time step: it was given 𝒦 = εK; give it your ε as time_step=")
         angular_momentum = [k / self.time_step for k in self._momentum.tolist()]
-        return np.array(angular_velocity(*(*angular_momentum, *self._gamma.tolist(), *self._J.tolist(), self._D)))
+        with suppress(ZeroDivisionError):
+            omega = angular_velocity(*(*angular_momentum, *self._gamma.tolist(), *self._J.tolist(), self._D))
+            if all(map(isfinite, omega)):
+                return np.array(omega)
+        raise BadInput("omega is beyond the range of float64; take other units")
 
     def _frames(self, count: int) -> dict[str, Floats]:
         """Buffers for this many states; empty for an attitude and a contact point that are not followed."""

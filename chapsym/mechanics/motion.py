@@ -469,13 +469,14 @@ class Runner:
     def _given(self, start: Any, zero: Any) -> np.ndarray:
         """A given state, in the numbers of `zero`."""
         try:
-            if np.shape(start) != (len(self.scheme.state),) or np.ma.isMaskedArray(start) or np.iscomplexobj(start):
+            masked = np.ma.isMaskedArray(start) or any(x is np.ma.masked for x in start)
+            if np.shape(start) != (len(self.scheme.state),) or masked or np.iscomplexobj(start):
                 raise TypeError
             found = np.array([zero + x for x in start], float if isinstance(zero, float) else object)
             if not _are_finite(found):
                 raise ValueError
             return found
-        except (TypeError, ValueError):
+        except Exception:  # of numbers of any kind
             raise BadSystem(
                 f"the start must be {len(self.scheme.state)} numbers, as `final` has them, not {brief(start)}"
             ) from None

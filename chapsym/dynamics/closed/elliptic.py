@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
+from math import inf
 from typing import Self
 
 import numpy as np
@@ -121,6 +123,20 @@ MOST_CORRECTIONS = 60
 SETTLED = 1e-9
 
 
+def _beyond_separatrix(ball: Ball, g: Floats, order: np.ndarray) -> float:
+    """Λ_b l - 1, whose sign is the side of the separatrix: a difference, of the exact numbers that are given."""
+    J, D = list(map(Fraction, ball.mass_tensor.tolist())), Fraction(float(ball.D))
+    first, middle, last = order
+
+    def part(i: int) -> Fraction:
+        return Fraction(float(g[i])) ** 2 * abs(J[i] - J[middle]) / (sum(J, D) - J[i])
+
+    try:
+        return float(part(last) - part(first))
+    except (ZeroDivisionError, OverflowError):  # which is refused
+        return inf
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Curve(Brief):
     """The level ⟨γ,Λ⁻¹γ⟩ = l on the sphere: γ = (C_a cn u, C_b sn u, C_c dn u) on the axes (a, b, c), for one ball.
@@ -208,11 +224,8 @@ class Curve(Brief):
         order = np.argsort(tensor, kind="stable")  # the largest moment first
         if not across(tensor, moments, g).any():
             raise BadInput("the map fixes this gamma (a principal axis, or a ball with equal moments): it is no curve")
-        # The sign of Λ_b l - 1 = x² - y² gives the side of the separatrix.
-        first, middle, last = order
-        x = float(abs(g[last]) * np.sqrt((tensor[last] - tensor[middle]) / moments[last]))
-        y = float(abs(g[first]) * np.sqrt((tensor[middle] - tensor[first]) / moments[first]))
-        a, b, c = (int(i) for i in (order if x >= y else order[::-1]))
+        side = _beyond_separatrix(ball, g, order)
+        a, b, c = (int(i) for i in (order if side >= 0 else order[::-1]))
         La, Lb, Lc = (float(moments[i]) for i in (a, b, c))
         gaps = float(tensor[c] - tensor[b]), float(tensor[c] - tensor[a]), float(tensor[b] - tensor[a])
         bc, ac, ab = map(abs, gaps)
@@ -220,7 +233,7 @@ class Curve(Brief):
         upper = g[a] ** 2 * ac / La + g[b] ** 2 * bc / Lb
         lower = g[b] ** 2 * ab / Lb + g[c] ** 2 * ac / Lc
         k2 = ab * upper / (bc * lower)
-        complement = np.sqrt(ac * abs(x - y) * (x + y) / (bc * lower))
+        complement = np.sqrt(ac * abs(side) / (bc * lower))
         amplitudes = (
             float(np.sqrt(La * upper / ac)),
             float(np.sqrt(Lb * upper / bc)),
@@ -249,7 +262,7 @@ class Curve(Brief):
 
     @np.errstate(under="ignore")
     def point(self, u: ArrayLike) -> Floats:
-        """γ(u), shape (..., 3), for real u, (...), of up to about 1e15 periods."""
+        """γ(u), shape (..., 3), for real u, (...): each period costs about 3e-15 of accuracy."""
         sn, cn, dn = jacobi(numbers(u, "u"), self.modulus, self.complement)
         gamma = np.empty((*sn.shape, 3))
         for axis, amplitude, value in zip(self.axes, self.amplitudes, (cn, sn, dn), strict=True):

@@ -63,6 +63,7 @@ class VerticalTrajectory(Brief):
         """𝒦 = hγ in kg m², (..., frames, 3)."""
         return self.height[..., np.newaxis, np.newaxis] * self.gamma
 
+    @np.errstate(under="ignore")
     def level(self) -> Floats:
         """l = ⟨γ,Λ⁻¹γ⟩ of each frame in 1/(kg m²), (..., frames): an integral of every branch (Proposition 3)."""
         inertia = (self.ball.inertia + self.ball.D[..., np.newaxis])[..., np.newaxis, :]

@@ -139,8 +139,8 @@ def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
         if stuck == MOST_STUCK:
             break
         # The bits that a step has cost, and some more, for all steps.
-        cost = (bits - left) / step if step else 0.0
-        guard, before = max(2 * guard, math.ceil(1.1 * cost * way.steps) + precision.guard), (step, left)
+        cost = (bits - left) / step if step and left > -math.inf else 0.0
+        guard, before = max(2 * guard, 1, math.ceil(1.1 * cost * way.steps) + precision.guard), (step, left)
     raise BadInput(
         f"the balls grow too much: after step {step} of {way.steps}, {bits} bits leave less than {precision.bits};"
         " take fewer or shorter steps"
@@ -596,8 +596,8 @@ class ArbBall(_UnderWay):
     def _rotation(self, every: Vector) -> Vector:
         """The rotations of all states if neither lemma holds."""
         K, g = tuple(2 * x for x in every[:3]), every[3:6]
-        q = enclosed(self._near(K, g), K, g, self.J, (self.D,))
-        if q is None:
+        finite = all(x.is_finite() for x in every)
+        if not finite or (q := enclosed(self._near(K, g), K, g, self.J, (self.D,))) is None:
             raise TooWide
         return q
 
@@ -647,5 +647,7 @@ def size_of(K: Exact, exponent: int) -> int:
 
 def log2_of(x: arb) -> float:
     """The logarithm to base 2 of the midpoint of a ball, rounded up; -inf if that is not positive."""
+    if not x.is_finite():
+        return math.inf
     man, exp = map(int, x.mid().man_exp())
     return exp + man.bit_length() if man > 0 else -math.inf

@@ -48,8 +48,8 @@ def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None
     frames = Frames(momenta, verticals, attitudes, traces, *untaken(n), attitude is not None, low, least)
     with np.errstate(over="ignore", under="ignore"):  # a precision of a smaller range refuses numbers beyond it
         frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
-    if attitude is not None:
-        frames.attitude[:, 0], frames.contact[:, 0] = attitude, 0.0
+        if attitude is not None:
+            frames.attitude[:, 0], frames.contact[:, 0] = attitude, 0.0
     return frames
 
 

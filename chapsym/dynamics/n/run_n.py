@@ -36,8 +36,11 @@ from .near_n import limits
 
 #: The numbers in the Jacobians of the balls that are solved together, which fit into a cache.
 BLOCK = 2**15
-#: Stages of a ball between two points at which the run can be interrupted.
-CHUNK = 10_000
+#: Stages of a ball between two points at which the run can be interrupted, at most; and the cubes of the equations of a
+#: stage, n(n - 1)/2, that it solves between them: about a second.
+CHUNK, WORK = 10_000, 4 * 10**9
+#: The largest dimension: one step takes seconds there, and its time grows as n^6.
+MOST = 64
 MOVING = ("momentum", "gamma", "attitude", "contact")
 UNCOUNTED = Count(lambda done: None)
 
@@ -90,7 +93,7 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str
     StepNotTaken
         If one ball (no leading axis) has no step; a batch reports `status` instead.
     BadInput
-        For shapes, NaN, infinities, a momentum that is not skew, and a gamma that is not unit.
+        For shapes, NaN, infinities, a momentum that is not skew, a gamma that is not unit, and more than 64 dimensions.
 
     References
     ----------
@@ -336,6 +339,8 @@ def start(
     """The common leading shape, and the state for `run`, checked read-only arrays; raises BadInput."""
     if not is_a(ball, BallN):
         raise BadInput(f"ball must be a chapsym.BallN, not {type(ball).__name__}")
+    if ball.n > MOST:
+        raise BadInput(f"a step solves n(n - 1)/2 equations: the ball has n = {ball.n}, but n must be at most {MOST}")
     K, g = skew_matrices(momentum, ball.n), unit_vertical(gamma, ball.n)
     radius = () if ball.radius is None else ball.radius.shape
     leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, K.shape[:-2], g.shape[:-1]]
@@ -473,9 +478,10 @@ def advance(one: Under, frames: dict[str, Floats], steps: Steps, count: Count) -
     momenta, attitudes = (x.reshape(len(x), one.k.size) for x in (momenta, attitudes))
     track = Track(momenta, frames["gamma"], attitudes, traces, follows)
     s, done, take = len(one.c), 0, native.loop(loop_n.march)
-    room = np.empty((len(one.g) * (len(one.g) - 1) // 2,) * 2)
+    equations = len(one.g) * (len(one.g) - 1) // 2
+    room, chunk = np.empty((equations, equations)), min(max(WORK // equations**3, 1), CHUNK)
     while done < steps.last * s and not count.stopped:
-        last, before = min(done + CHUNK, steps.last * s), done
+        last, before = min(done + chunk, steps.last * s), done
         done = take(one, Steps(done, last, steps.every), track, room)
         if done < last:
             status, reach = _safely(one, done % s, follows)
