@@ -17,6 +17,8 @@ except ImportError:  # Windows
 Data = dict[str, Any]
 #: Limits of a text that is read whole, and of its first line: an hour of a motion, a thousand frames each second.
 MOST_BYTES, MOST_LINE = 2**30, 2**24
+#: The letters of a file's name in the name of its temporary file.
+SHORT = 40
 
 
 class CannotRead(Exception):
@@ -97,7 +99,8 @@ def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     path = Path(os.path.realpath(path))  # a link stays a link; its file is replaced
     temporary = None
     try:
-        with tempfile.NamedTemporaryFile("wb", dir=path.parent, prefix=f".{path.name}.", delete=False) as stream:
+        prefix = f".{path.name[:SHORT]}."  # a name with this and more must not be too long where the file's is not
+        with tempfile.NamedTemporaryFile("wb", dir=path.parent, prefix=prefix, delete=False) as stream:
             temporary = Path(stream.name)
             write(stream)
             stream.flush()

@@ -13,6 +13,8 @@ from typing import Any
 
 #: Ignores the warning of Python's tracker, which removes the semaphores of a killed process; an option -W.
 TRACKER = "ignore:resource_tracker:UserWarning"
+#: Seconds to wait for workers that were ended; in a compiled loop they may be longer.
+LONG = 2.0
 
 
 class Processes(ProcessPoolExecutor):
@@ -44,10 +46,13 @@ class Processes(ProcessPoolExecutor):
                 raise
 
     def __exit__(self, *error: object) -> None:
-        children = list((self._processes or {}).values())  # the pool forgets them at its shutdown
+        # The pool forgets both at its shutdown.
+        children, manager = list((self._processes or {}).values()), getattr(self, "_executor_manager_thread", None)
         self.shutdown(wait=False, cancel_futures=True)
         for process in children:
             process.terminate()
+        if manager is not None:  # else it may close its pipe when Python, at its end, writes to it
+            manager.join(LONG)
 
 
 @contextmanager

@@ -19,8 +19,10 @@ import chapsym
 from chapsym import jobs, sources
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.frames import cores
-from chapsym.files import Data
+from chapsym.files import Data, check_destination
 
+#: The beginning of each line of the file.
+BEGINNING = '{"key": '
 #: Called with the units that are done and how many there are.
 Report = Callable[[int, int], None]
 #: The results of units, in their order: `run_units`.
@@ -96,6 +98,7 @@ def _kept(path: Path | None) -> Iterator[tuple[Data, Callable[[str, object], Non
     if path is None:
         yield {}, lambda key, result: None
         return
+    check_destination(path)
     with _written(lambda: path.open("a+", encoding="utf-8", newline="")) as stream:
         jobs.claim(stream, str(path))
         done = _read(stream, path)
@@ -107,6 +110,12 @@ def _kept(path: Path | None) -> Iterator[tuple[Data, Callable[[str, object], Non
         yield done, keep
 
 
+def _damaged(number: int, path: Path) -> BadInput:
+    return BadInput(
+        f"line {number} of {path} is no result of a study, or is damaged; delete it, or name another folder"
+    )
+
+
 def _read(stream: TextIO, path: Path) -> Data:
     """The results in an open file.  A last line without its end was cut off when its writer was killed, and goes."""
     try:
@@ -115,7 +124,7 @@ def _read(stream: TextIO, path: Path) -> Data:
     except (OSError, UnicodeDecodeError) as error:
         raise BadInput(f"{path} cannot be read as results of a study: {error}") from None
     whole = text[: text.rfind("\n") + 1]
-    found = {}
+    rest, found = text[len(whole) :], {}
     for number, line in enumerate(whole.splitlines(), start=1):
         try:
             record = json.loads(line)
@@ -123,10 +132,10 @@ def _read(stream: TextIO, path: Path) -> Data:
                 raise ValueError("damaged")
             found[record["key"]] = record["result"]
         except (ValueError, TypeError, KeyError, RecursionError):
-            raise BadInput(
-                f"line {number} of {path} is no result of a study, or is damaged; delete it, or name another folder"
-            ) from None
-    if whole != text:
+            raise _damaged(number, path) from None
+    if rest:
+        if rest[: len(BEGINNING)] != BEGINNING[: len(rest)]:
+            raise _damaged(whole.count("\n") + 1, path)
         _written(lambda: stream.truncate(len(whole.encode())))
     return found
 

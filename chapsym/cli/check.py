@@ -36,15 +36,10 @@ def check(
 
     if output is not None and not measured.is_page(output):
         fail(f"{str(output)!r}: the page must end in .md", 2)
-    done: list[object] = []
-    with progress_bar("checking", len(study.STRATA)) as shown:
-
-        def arrived(row: object) -> None:
-            done.append(row)
-            shown(len(done))
-
-        rows = study.check(states, seed, on_row=arrived)
-    moved = study.drift(steps)
+    with progress_bar("checking", len(study.STRATA) * states) as shown:
+        rows = study.check(states, seed, shown)
+    with progress_bar("rolling", steps) as shown:
+        moved = study.drift(steps, shown)
     result = study.as_json(rows, moved)
     table, sentences = _table(rows, moved, study.BUDGET)
     if output is not None:

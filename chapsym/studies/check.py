@@ -12,7 +12,7 @@ are their largest components.  The promise is checked by measurement; the bounds
 state, and compared with the same errors.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 
 import mpmath
@@ -28,6 +28,10 @@ from chapsym.dynamics.oracle import Oracle, OracleStep
 from chapsym.files import Data
 
 ULP = 2.0**-52
+#: States in a call of a worker.
+TOGETHER = 50
+#: The errors of q, 𝒦 and γ and what was promised, in ulps; κ; the largest error as a fraction of its bound.
+Compared = tuple[Floats, Floats, float, float]
 #: A term of the residual is rounded at most 8 times, by half an ulp: products of five factors and the sum.
 BUDGET = 4.0
 
@@ -119,7 +123,7 @@ STRATA: dict[str, Callable[[np.random.Generator], State]] = {
 }
 
 
-def compare(state: State, digits: int = 34) -> tuple[Floats, Floats, float, float]:
+def compare(state: State, digits: int = 34) -> Compared:
     """One float64 step against the oracle: errors of q, 𝒦, γ and what was promised, in ulps; κ; of what is proved.
 
     The last is the largest error as a fraction of its bound, NaN where nothing is proved.
@@ -149,30 +153,41 @@ def compare(state: State, digits: int = 34) -> tuple[Floats, Floats, float, floa
     return np.array(errors), np.array(promised), kappa, share
 
 
-def check_stratum(name: str, states: int, seed: int) -> Row:
-    """The worst of `states` seeded states of one stratum."""
+def compare_all(states: list[State]) -> list[Compared]:
+    """`compare` of each state."""
+    return list(map(compare, states))
+
+
+def drawn(name: str, states: int, seed: int) -> Iterator[list[State]]:
+    """The seeded states of a stratum, some at a time."""
     rng = np.random.default_rng([seed, list(STRATA).index(name)])
-    found = (compare(STRATA[name](rng)) for _ in range(states))
+    for at in range(0, states, TOGETHER):
+        yield [STRATA[name](rng) for _ in range(at, min(at + TOGETHER, states))]
+
+
+def worst(name: str, found: list[Compared]) -> Row:
+    """The worst of the states of one stratum."""
     errors, promised, conditions, shares = map(np.array, zip(*found, strict=True))
     rotation, momentum, gamma = map(float, errors.max(axis=0))
     proved = int(np.isfinite(shares).sum())
     return Row(
-        name, states, rotation, momentum, gamma, float(conditions.max()), float((errors / promised).max()),
+        name, len(found), rotation, momentum, gamma, float(conditions.max()), float((errors / promised).max()),
         proved, float(np.nanmax(shares)) if proved else 0.0,
     )  # fmt: skip
 
 
-def check(states: int = 20, seed: int = 20071, on_row: Callable[[Row], None] = lambda row: None) -> list[Row]:
-    """One row for each stratum, in parallel on the cores; `on_row` gets each row when it is done."""
-    rows: dict[str, Row] = {}
+def check(states: int = 20, seed: int = 20071, progress: Callable[[int], None] = lambda done: None) -> list[Row]:
+    """One row for each stratum, in parallel on the cores; progress: gets the states done."""
+    found: dict[str, list[Compared]] = {name: [] for name in STRATA}
 
     def chain(name: str) -> jobs.Chain:
-        rows[name] = yield jobs.Call(check_stratum, (name, states, seed))
-        on_row(rows[name])
+        for some in drawn(name, states, seed):
+            found[name] += yield jobs.Call(compare_all, (some,))
+            progress(sum(map(len, found.values())))
 
     with jobs.processes(cores()) as crew:
         jobs.run(map(chain, STRATA), crew)
-    return [rows[name] for name in STRATA]
+    return [worst(name, of) for name, of in found.items()]
 
 
 @dataclass(frozen=True)
@@ -191,10 +206,14 @@ class Drift:
         return max(self.height, self.squared, self.unit) <= self.budget
 
 
-def drift(steps: int = 100_000) -> Drift:
-    """The drift of ⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ over a trajectory: the roundings of n steps add up like √n."""
+def drift(steps: int = 100_000, progress: Callable[[int], None] = lambda done: None) -> Drift:
+    """The drift of ⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ over a trajectory: the roundings of n steps add up like √n.
+
+    progress: gets the steps done.
+    """
     ball = Ball((0.1, 0.5, 1.6), 0.7)
-    run = trajectory(ball, (0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7), steps, every=max(1, steps // 1000))
+    every = max(1, steps // 1000)
+    run = trajectory(ball, (0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7), steps, every=every, progress=progress)
     values = run.invariants()
     moved = np.abs(values - values[0]).max(axis=0) / np.abs(values[0])
     height, squared, unit = map(float, moved)
