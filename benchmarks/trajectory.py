@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 
 import chapsym
+from chapsym.dynamics.ball import numbers
 from chapsym.dynamics.levels import frames
+from chapsym.dynamics.levels.proved import lengths
 from chapsym.files import Data
 
 from . import peers
@@ -68,15 +70,14 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None, ow
     rows: list[Data] = []
     reach: list[Reached] = []
     starts = [(MASS_TENSOR, D, epsilon * MOMENTUM, GAMMA) for epsilon in EPSILONS] if own is None else [own]
-    for tensor, contact, *vectors in starts:
-        J, K, g = (np.array(x, dtype=float) for x in (tensor, *vectors))
-        epsilon = float(np.linalg.norm(K))
-        contact = float(contact)
+    for start in starts:
+        J, contact, K, g = map(numbers, start, ("mass_tensor", "D", "momentum", "gamma"))
+        epsilon, moment = float(lengths(K)), float(contact)
         differ = agreement(
-            {name: partial(side, K, g, J, contact, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT
+            {name: partial(side, K, g, J, moment, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT
         )
         counts = {name: max(20, steps // share) for name, (_, share) in SIDES.items()}
-        sides = {name: (partial(SIDES[name][0], K, g, J, contact, count), count) for name, count in counts.items()}
+        sides = {name: (partial(SIDES[name][0], K, g, J, moment, count), count) for name, count in counts.items()}
         timings = timed(sides, rounds, on_round, "one trajectory")
         rows += beside(timings, CHAPSYM, "ns a step", {"ε": epsilon}, differ)
         if own is None and not reach:

@@ -76,7 +76,11 @@ GRACE = 3
 
 
 def begin() -> None:
-    """In a worker: an interrupt is for the parent; and when that is gone, however it was ended, the worker ends."""
+    """In a worker: an interrupt is for the parent; and when that is gone, however it was ended, the worker ends.
+
+    What a user's script prints goes to standard error: the parent's standard output may be one JSON object.
+    """
+    sys.stdout = sys.stderr
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, _end)
     if hasattr(signal, "pthread_sigmask"):

@@ -16,6 +16,7 @@ def test_a_file_is_replaced_and_nothing_is_left_beside_it(tmp_path):
     write_whole(path, lambda stream: stream.write(b"new"))
     assert path.read_bytes() == b"new"
     assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+    write_whole(tmp_path / ("ä" * 125 + ".json"), lambda stream: stream.write(b"255 bytes"))
 
 
 def test_a_file_is_on_the_disk_before_it_has_its_name(tmp_path, monkeypatch):

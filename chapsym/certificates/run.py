@@ -32,15 +32,20 @@ def map_run(
     bounds = np.stack([run.proved.momentum, run.proved.gamma])
     if not np.isfinite(bounds).all():
         raise BadInput(f"the bounds are proved up to step {run.proved.steps} only: take a run that ends there")
-    steps, most = int(run.index[-1]), checker.document.MOST_STEPS
-    if not 0 < steps <= most:
-        raise BadInput(f"the checker follows 1 to {most} steps, and the last frame of the run is at {steps}")
+    steps = int(run.index[-1])
+    check_steps(steps)
     small = min(float(x) for x in (*run.ball.mass_tensor, run.ball.D, *bounds[:, 1:].ravel(), 1.0) if x > 0)
     bits = (GUARD + math.ceil(a_step * steps - math.log2(small)) for a_step in A_STEP)
     try:
         return first_accepted(bits, lambda n: _document(run, n), progress, limit, "take fewer steps")
     except checker.Rejected as error:
         raise BadInput(f"the checker does not prove the bounds of this run: {error}") from None
+
+
+def check_steps(last: int) -> None:
+    """Raises BadInput if the checker does not follow as many steps as the last frame is at."""
+    if not 0 < last <= (most := checker.document.MOST_STEPS):
+        raise BadInput(f"the checker follows 1 to {most} steps, and the last frame of the run is at {last}")
 
 
 def _document(run: Trajectory, bits: int) -> Document:

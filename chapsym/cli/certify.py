@@ -308,6 +308,7 @@ def run_of_map(
 
     Example: chapsym certify run docs/examples/map.toml -o run.json
     """
+    from chapsym.certificates.run import check_steps
     from chapsym.certificates.run import map_run as search
     from chapsym.dynamics import trajectory
     from chapsym.scene import load
@@ -322,6 +323,7 @@ def run_of_map(
         fail(f"{scene}: certify run takes one ball in three dimensions, by its principal moments", 2)
     start = plan.members.momentum[0], plan.members.gamma[0]
     ball, task = one_ball(plan.members, 0), plan.task
+    check_steps(task.steps // task.every * task.every)
     run = trajectory(
         ball, *start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True
     )

@@ -1,8 +1,9 @@
 """chapsym lab: what methods make of mechanical systems, as a table, JSON or a page."""
 
 import json
+import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -69,7 +70,8 @@ def lab(
     systems = list[tuple[Path, "System"]]()
     for path in _files(files):
         try:
-            system = loaded(path)
+            with redirect_stdout(sys.stderr):  # what the file prints
+                system = loaded(path)
             if system.name in [one.name for _, one in systems]:
                 raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
             if certificates and name_of(system) in [name_of(one) for _, one in systems]:

@@ -59,7 +59,7 @@ def note(sentence: str) -> None:
 def put(*lines: object) -> None:
     """Prints lines, each one line: what names and titles of others have, a terminal would obey otherwise."""
     for line in lines:
-        print(files.visible(str(line)))
+        print(files.visible(str(line)), flush=True)  # so that a log shows it
 
 
 def _said(text: str) -> None:

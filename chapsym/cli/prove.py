@@ -1,9 +1,10 @@
 """chapsym prove: judge the printed claims; and what other commands need of the verdicts."""
 
 import json
+import sys
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, redirect_stdout, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated
@@ -202,11 +203,12 @@ def all_claims(register: "Register", lemmas: bool = False) -> "dict[str, Claim]"
 
 @contextmanager
 def reading() -> Iterator[None]:
-    """A context for reading a register: a script that cannot be loaded is a failed proof."""
+    """A context for reading a register: one that cannot be loaded is a failed proof; what it prints is no output."""
     from chapsym.prove import BrokenScript, NoRegister
 
     try:
-        yield
+        with redirect_stdout(sys.stderr):
+            yield
     except NoRegister as error:
         fail(str(error), 2)
     except BrokenScript as error:

@@ -134,7 +134,7 @@ def _evidence(name: str, folder: Path) -> "Evidence | None":
         drawn = [(caption, folder / file) for file, caption in module.CAPTIONS.items() if (folder / file).is_file()]
         figures = [(caption, files.text_of(path)) for caption, path in drawn]
         return Evidence(name, module.TITLE, module.sentences(found), figures)
-    except (files.CannotRead, ValueError, KeyError, TypeError) as error:
+    except (files.CannotRead, ArithmeticError, LookupError, ValueError, TypeError, RecursionError) as error:
         fail(f"{data} cannot be read as what chapsym study {name} -o writes: {type(error).__name__}: {error}", 2)
 
 

@@ -84,8 +84,10 @@ def test_a_start_from_which_no_orbit_is_found_is_refused(monkeypatch):
     ("change", "words"),
     [({"gamma": (Fraction(1), Fraction(1), Fraction(0))}, "unit"), ({"signs": (1, 1, -1)}, "signs"),
      ({"J": (Fraction(-1), Fraction(1), Fraction(1))}, "no ball"), ({"time": Fraction(-1)}, "time"),
-     ({"D": Fraction(10**400)}, "too large or too far apart")],
+     ({"D": Fraction(10**400)}, "too large or too far apart"),
+     ({"momentum": (Fraction(1), Fraction(3, 2), Fraction(10**300))}, "too large or too far apart")],
 )  # fmt: skip
+@pytest.mark.filterwarnings("error")
 def test_what_is_no_orbit_is_refused(change, words):
     with pytest.raises(BadInput, match=words):
         drift.energy_drift(**near(certificate(FILES[0])) | change)

@@ -136,6 +136,7 @@ def test_without_contact_both_displacements_are_one_number():
     ("ball", "arguments", "sentence"),
     [
         ({"J": "1,1,4"}, {}, "must differ"),
+        ({"J": "1,1.5,1e300"}, {}, "the moments of inertia are too far apart for the search"),
         ({"J": "-1,2,4"}, {}, "entries J ≥ 0"),
         ({"J": "0,0,4"}, {}, "at most one is 0"),
         ({"D": "-1"}, {}, "must not be negative"),

@@ -14,6 +14,7 @@ from chapsym.certificates import document, families, orbit
 from chapsym.certificates.balls import NotProved, rounded, shortest
 from chapsym.certificates.passage import Level, Map, Passage, identity
 from chapsym.dynamics import BadInput
+from chapsym.dynamics.errors import TooWide
 from chapsym.dynamics.levels.balls import exact
 
 COMMITTED = ("periodic-orbit-simplest", "periodic-orbit-attracting", "periodic-orbit-real-ball")
@@ -150,7 +151,20 @@ def test_an_orbit_is_found(monkeypatch, family):
         orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20)
 
 
+def test_families_that_cannot_be_followed_are_left_out(monkeypatch, family):
+    errors = iter([NotProved(), TooWide(), ZeroDivisionError()])
+    starts = [np.array([1.0, 0, 0, x, 0, 0]) for x in (0.1, 0.2, 0.3, 0.4)]
+    monkeypatch.setattr(families, "_symmetric", lambda level, steps: starts)
+    monkeypatch.setattr(families, "_followed", Mock(side_effect=[*errors, family]))
+    assert list(families.families(NEAR, 20, lambda what: None)) == [family]
+    monkeypatch.setattr(families, "near", Mock(side_effect=ZeroDivisionError))
+    monkeypatch.setattr(families, "families", lambda *_: iter([family]))
+    with pytest.raises(BadInput, match="no orbits of 20 steps that are not symmetric were found"):
+        orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20)
+
+
 @pytest.mark.parametrize(("change", "sentence"), [
+    ({"D": 10**400}, "the search begins in float64"),
     ({"J": (1, 1, 4)}, "must differ"), ({"D": 0}, "D must be positive"), ({"size": 9}, "beyond the bound"),
     ({"size": 0}, "must be positive"), ({"height": 3}, "parallel"), ({"steps": 1}, "number of steps"),
     ({"digits": 0}, "number of decimals"), ({"digits": 2001}, "number of decimals"),

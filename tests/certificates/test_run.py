@@ -109,6 +109,8 @@ def test_the_command_makes_one_of_a_scene(tmp_path):
     done = command("certify", "run", path, "-o", file)
     assert "Proved: The ball with J" in done.stdout
     assert checker.check(json.loads(file.read_text())).kind == "map-run"
+    path.write_text(f"{BALL}time_step = 0.01\nsteps = 1_000_000_000_000\nevery = 1_000_000_000_000\nmap = true\n")
+    assert "the checker follows 1 to 1000 steps" in refused_command("certify", "run", path)
     path.write_text(f"{BALL}time_step = 0.01\nsteps = 30\n")
     assert "name a FILE, or a --manifest" in refused_command("certify", "check")
     assert "is of the motion of the ball: add map = true" in refused_command("certify", "run", path)

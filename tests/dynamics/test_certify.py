@@ -187,6 +187,14 @@ def test_a_batch_with_a_ball_that_stopped():
     assert set(proof.write()) == {"index", "selected", "momentum", "momentum_error", "gamma", "gamma_error"}
 
 
+def test_the_contact_point_starts_at_that_of_the_run():
+    run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3, 1.0), K, GAMMA, 6, contact=True)
+    back = chapsym.reverse(run)
+    proof = chapsym.certify(back)
+    assert [float(x.mid()) for x in proof.contact[0]] == back.contact[0].tolist() != [0, 0]
+    assert proof.contact_error.max() < 1e-15
+
+
 def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
     run = chapsym.trajectory(BALL, K, GAMMA, 5)
     with pytest.raises(BadInput, match="certify takes what"):

@@ -83,6 +83,21 @@ def test_every_ball_has_its_curve_on_both_sides(ball):
     assert sides == {True, False}
 
 
+@pytest.mark.parametrize("epsilon", [1e-1, 1e-5, 1e-9, 1e-13])
+def test_the_complement_has_full_relative_accuracy_near_the_separatrix(epsilon):
+    ball, g = Ball((1, 2, 4), 3), np.array([0.6, 0.7, 0.6 * np.sqrt(1 / 3) * (1 + epsilon)])
+    g /= np.linalg.norm(g)
+    curve = Curve.through(ball, g)
+    with mpmath.workdps(50):
+        x, y, z = (mpmath.mpf(float(c)) ** 2 for c in g)
+        a, b, c = (
+            (mpmath.mpf(9), mpmath.mpf(8), mpmath.mpf(6)) if curve.axes == (0, 1, 2) else map(mpmath.mpf, (6, 8, 9))
+        )
+        level = (x / 9 + y / 8 + z / 6) / (x + y + z)
+        k2 = (a - b) * (1 - c * level) / ((b - c) * (a * level - 1))
+        assert abs(curve.complement / mpmath.sqrt(1 - k2) - 1) <= 4 * ULP
+
+
 @pytest.mark.parametrize("epsilon", [1e-2, 1e-5, 1e-7, 1e-10, 1e-13, 0.0])
 def test_near_the_separatrix_and_near_its_ends(epsilon):
     """γ at distance `epsilon` from the separatrix, and from the two stable axes."""

@@ -87,6 +87,12 @@ def test_a_time_that_is_none_of_the_run_is_refused(times):
         rolled(48).at(times)
 
 
+def test_the_last_time_in_decimals_is_that_of_the_last_frame():
+    run = chapsym.roll(BALL, (3, -2, 1), 0.35, 3)
+    assert run.time[-1] < 1.05  # 3 times 0.35 in float64
+    assert (run.at(1.05).gamma == run.at(run.time[-1]).gamma).all()
+
+
 def test_frames_too_far_apart_tell_nothing_of_what_is_between():
     with pytest.raises(chapsym.BadInput, match=r"up to 1\.96 radians of turning apart.*at most 1\.5.*smaller `every`"):
         rolled(8).at(1.0)

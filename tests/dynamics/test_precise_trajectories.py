@@ -4,6 +4,7 @@ import copy
 import pickle
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from decimal import Decimal
 from fractions import Fraction as F
 from functools import partial
@@ -255,6 +256,16 @@ def test_reverse_refuses_what_it_would_round(precision):
     run = chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, precision=precision)
     with pytest.raises(BadInput, match="reverse goes back in"):
         chapsym.reverse(run)
+
+
+@pytest.mark.parametrize("momentum", [(100, 0, 0), (0.1, 0.05, 0.2)])
+def test_the_fewest_bits_without_a_guard_have_an_end(momentum):
+    """As no bits are left at the first step, there is no cost of a step, and no guard could be doubled."""
+    ball = chapsym.Ball((1, 2, 4), 3, 1.0)
+    with nullcontext() if momentum[0] < 1 else pytest.raises(StepNotTaken, match="no rotation"):
+        run = chapsym.trajectory(ball, momentum, (0.6, 0, 0.8), 2, contact=True, precision=Enclosure(2, guard=0))
+        fine = chapsym.trajectory(ball, momentum, (0.6, 0, 0.8), 2, contact=True)
+        assert all(x.contains(float(y)) for x, y in zip(run.gamma[-1], fine.gamma[-1], strict=True))
 
 
 def test_few_bits_of_a_heavy_ball_get_as_many_guards_as_they_need():

@@ -502,7 +502,9 @@ def test_a_position_at_the_start_is_in_the_bounds_of_a_rolled_ball(options):
     assert (there - here < 1e-12 if runs[0].low is None else there < 1e-26).all()
 
 
-def test_the_proof_of_a_stepper_can_be_interrupted_and_goes_on(monkeypatch):
+@pytest.mark.parametrize("after", [False, True])
+def test_the_proof_of_a_stepper_can_be_interrupted_and_goes_on(after, monkeypatch):
+    """Python raises it before a compiled call, or right after the one in which it arrives."""
     whole, parts = (chapsym.Stepper(BALL, momentum(0.03), GAMMA) for _ in range(2))
     for one in (whole, parts):
         one.step(100)
@@ -512,9 +514,12 @@ def test_the_proof_of_a_stepper_can_be_interrupted_and_goes_on(monkeypatch):
 
     def interrupted(*given):
         calls.append(given)
+        if len(calls) == 3 and not after:
+            raise KeyboardInterrupt
+        found = take(*given)
         if len(calls) == 3:
             raise KeyboardInterrupt
-        return take(*given)
+        return found
 
     monkeypatch.setattr(double_double.OneBall, "take", interrupted)
     with pytest.raises(KeyboardInterrupt):

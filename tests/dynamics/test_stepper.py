@@ -144,6 +144,9 @@ def test_omega_is_that_of_a_trajectory():
     assert run.time.tolist() == [0, 0.2]
     with pytest.raises(BadInput, match="time_step="):
         _ = Stepper(BALL, K, GAMMA).omega
+    for tensor, momentum in (((1e-150, 2e-150, 5e-151), (1e300, 0, 0)), ((5e-324, 5e-324, 0), (0, 0, 0))):
+        with pytest.raises(BadInput, match="omega is beyond the range of float64"):
+            _ = Stepper(chapsym.Ball(tensor, 0), momentum, (0, 0, 1), time_step=1e-3).omega
 
 
 @pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))])

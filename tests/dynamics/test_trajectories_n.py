@@ -54,6 +54,18 @@ def test_the_invariants_are_those_of_the_matrix(n):
     assert values[-1] == pytest.approx(1)
 
 
+def test_a_run_in_many_dimensions_can_be_interrupted_between_few_stages(monkeypatch):
+    ball, K, gamma = batch(5, 1, 0.2)
+    whole, seen = trajectory_n(ball, K, gamma, 6, order=4), []
+    monkeypatch.setattr(run_n, "WORK", 2 * 10**3)  # of ten equations
+    parts = trajectory_n(ball, K, gamma, 6, order=4, progress=seen.append)
+    assert seen == sorted(seen)
+    assert len(seen) >= 6
+    assert (parts.momentum == whole.momentum).all()
+    with pytest.raises(BadInput, match="the ball has n = 65, but n must be at most 64"):
+        trajectory_n(BallN(np.ones(65), 1), np.zeros((65, 65)), np.eye(65)[0], 1)
+
+
 @pytest.mark.parametrize("n", SIZES)
 def test_the_body_turns_and_rolls_with_the_steps(n):
     """R' = RΩ, R γ = eₙ, R𝒦Rᵀ constant, and Δr = ρ/2 (Ω̄ - Ω̄ᵀ)eₙ with Ω̄ = R'Rᵀ, in the plane (4.9)."""

@@ -94,6 +94,14 @@ def test_no_drift_falls_to_none():
     assert done.stdout.endswith("with half the step: +0.0e+00\n")
 
 
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_what_a_file_prints_is_no_output(spring, jobs):
+    spring.write_text(f"{spring.read_text(encoding='utf-8')}print('of the file')\n", encoding="utf-8")
+    done = chapsym("lab", spring, "--method", "gni", "--steps", 2, "--no-flags", "--jobs", jobs, "--json")
+    assert len(json.loads(done.stdout)["cells"]) == 1
+    assert "of the file" in done.stderr
+
+
 def test_two_processes_say_the_same(spring):
     """But for the time."""
     words = "lab", spring, "--method", "dla", "--method", "gni", "--steps", 20

@@ -189,7 +189,8 @@ def test_systems_that_cannot_be_run_are_one_sentence(settings, options, said):
 
 @pytest.mark.filterwarnings("error")
 def test_a_start_that_is_no_state_is_refused():
-    for odd in (np.full(6, 1j), np.full(6, np.inf), np.ma.masked_all(6), ["1"] * 6, [None] * 6):
+    odd_ones = np.full(6, 1j), np.full(6, np.inf), np.ma.masked_all(6), ["1"] * 6, [None] * 6, [10**400] * 6
+    for odd in (*odd_ones, [np.ma.masked] * 6, [sp.Symbol("s")] * 6):
         for level in ("double", chapsym.Enclosure(64)):
             with pytest.raises(BadSystem, match="the start must be 6 numbers, as `final` has them"):
                 Runner(particle(), precision=level).march(1, start=odd)

@@ -1,7 +1,6 @@
 """The page of the open questions: answers, certificates as the checker judges them, and what the studies found."""
 
 import copy
-import json
 import re
 from importlib import import_module
 from pathlib import Path
@@ -80,8 +79,9 @@ def test_what_a_full_study_left_is_read(name):
     assert all(caption and svg.lstrip().startswith("<?xml") for caption, svg in found.figures)
 
 
-def test_other_data_than_a_study_writes_are_refused(tmp_path, capsys):
-    (tmp_path / "rotation.json").write_text(json.dumps({"quick": True}))
+@pytest.mark.parametrize("text", ['{"quick": true}', "[" * 10**5])
+def test_other_data_than_a_study_writes_are_refused(tmp_path, capsys, text):
+    (tmp_path / "rotation.json").write_text(text)
     with pytest.raises(SystemExit) as stop:
         command._evidence("rotation", tmp_path)
     assert stop.value.code == 2

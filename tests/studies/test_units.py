@@ -12,6 +12,7 @@ from waiting import GUARD, INTERRUPTIBLE, until
 
 from chapsym import sources
 from chapsym.dynamics import BadInput
+from chapsym.files import CannotWrite
 from chapsym.studies import checkout
 from research import chaos, energy
 from research import units as units_module
@@ -85,16 +86,22 @@ def test_two_studies_do_not_write_one_file(tmp_path):
     assert len(path.read_text().splitlines()) == 2
 
 
-@pytest.mark.parametrize("line", ["first", "[" * 10**5, '{"key": "a", "result": 1}', "damaged"])
+@pytest.mark.parametrize("line", ["first", "notes", "[" * 10**5, '{"key": "a", "result": 1}', "damaged"])
 def test_a_file_of_something_else_is_refused_and_a_damaged_one(tmp_path, line):
     path = tmp_path / "u.jsonl"
     run_units(units(1), path)
     text = path.read_text().replace('"result": {"n": 0}', '"result": {"n": 1}')
-    path.write_text(text if line == "damaged" else f"{line}\n")
+    path.write_text(text if line == "damaged" else line if line == "notes" else f"{line}\n")
     before = path.read_text()
     with pytest.raises(BadInput, match=r"line 1 of .* is no result of a study, or is damaged; delete it, or name"):
         run_units(units(), path)
     assert path.read_text() == before
+
+
+def test_a_device_is_no_file_of_results(tmp_path):
+    (tmp_path / "u.jsonl").symlink_to("/dev/null")
+    with pytest.raises(CannotWrite, match="it is a device or a pipe"):
+        run_units(units(), tmp_path / "u.jsonl")
 
 
 def test_a_unit_that_fails_is_named_and_the_others_are_kept(tmp_path):
