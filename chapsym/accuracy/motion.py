@@ -6,9 +6,9 @@ It is an estimate, since the size of the error of a step (`loops.following.left`
 ball whose error is larger than the accuracy is followed again with shorter steps.
 
 A ball for which the rounding of these steps is too large is followed in double-double, by long steps of order up to 24.
-A run is compared with one of a lower order, which starts a few roundings away, to show the sensitivity of the ball to
-its start; the estimate is `LIKELY` times their difference.  Frames inside a step are reached from its start in double
-precision.
+A run is compared with the motion by long steps in double precision, or with a run of a lower order, which starts a few
+roundings away, to show the sensitivity of the ball to its start; the estimate is `LIKELY` times their difference.
+Frames inside a step are reached from its start in double precision.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ DOUBLED, LONGEST, MARGIN = 0.0125, 2.0, 0.1
 FEWEST, LESS = 7, 2
 #: The least part of the long steps in double precision; and the largest estimate of these, in accuracies, that is
 #: compared with a run in double-double, if it is SMALL: of runs that are far from the motion any two may agree.
-SHARE, NEAR, SMALL = 0.5, 8.0, 1e-3
+SHARE, NEAR, SMALL = 0.5, 100.0, 1e-3
 #: The factor from the distance of two runs to the error estimate: if both are exact to rounding, it is one sample.
 LIKELY = 4.0
 #: The least number of times at which two runs are compared: at one time they may agree by chance, after different ways.
@@ -716,26 +716,24 @@ def shared(steps: Floats) -> np.ndarray:
 def _verified(
     problem: Problem, long: Motion, started: Floats, columns: int, steps: int, progress: Callable[[int], None]
 ) -> tuple[Motion, Floats]:
-    """The motion by at least `steps` steps, and its distance from one of fewer columns; infinite for a ball that stops.
+    """The motion by at least `steps` steps, and its distance from another; infinite for a ball that stops.
 
-    The starts of the two runs differ by a few roundings, to show the sensitivity of a ball to its start.  A motion by
-    long steps in double precision whose estimate is nearly within the accuracy is compared first.
+    The other is the motion by long steps in double precision if the estimate of that is small enough.  If it is not,
+    or too far, the other has fewer columns, and starts a few roundings away, to show the sensitivity of a
+    ball to its start.
     """
-    moved = problem.K + ROUNDED * 2.0**-53 * lengths(problem.K)[:, np.newaxis] * ASIDE
-    other = _long_steps(replace(problem, K=moved), columns - LESS, steps, progress)
-    times = (other.gamma.shape[1] - 1) // problem.frames
-    found, off = long.of(np.arange(len(problem))), apart(problem, long, other.every(times)).max(axis=-1)
+    run = _long_steps(problem, columns, steps, progress)
+    times = (run.gamma.shape[1] - 1) // problem.frames
+    found, off = run.every(times), apart(problem, long, run.every(times)).max(axis=-1)
     near = long.error <= np.minimum(NEAR * problem.accuracy, SMALL * problem.units)
-    found.error[:] = np.where(near, _stated(problem, started, off), np.nan)
-    rest = np.flatnonzero(~(found.error <= problem.accuracy))
+    rest = np.flatnonzero(~(near & (_stated(problem, started, off) + run.error <= problem.accuracy)))
     if len(rest):
-        few, partner = problem.of(rest), other.of(rest)
-        run = _long_steps(few, columns, steps, progress)
-        apart_of = apart(few, run, partner).max(axis=-1)
-        off[rest] = np.where(np.isnan(apart_of) | (partner.status != Status.TAKEN), np.inf, apart_of)
-        error = _stated(few, started[rest], off[rest]) + run.error
-        run.error[:] = np.where(run.status == Status.TAKEN, error, np.nan)
-        found.put(rest, run.every(times))
+        few, aside = problem.of(rest), ROUNDED * 2.0**-53 * lengths(problem.K[rest])[:, np.newaxis] * ASIDE
+        other = _long_steps(replace(few, K=few.K + aside), columns - LESS, steps, progress)
+        off[rest] = apart(few, run.of(rest), other).max(axis=-1)
+        off[rest[other.status != Status.TAKEN]] = np.nan
+    off = np.where(np.isnan(off), np.inf, off)
+    found.error[:] = np.where(run.status == Status.TAKEN, _stated(problem, started, off) + run.error, np.nan)
     return found, off
 
 

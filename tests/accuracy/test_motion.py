@@ -154,10 +154,12 @@ def test_an_error_that_was_above_its_estimate_is_below(J, D, omega, gamma, turne
 def test_through_passages_of_an_unstable_axis_an_accuracy_that_is_met_is_met(thorough):
     """Of 2000 seeds 34 were met by the estimate alone, which was up to 390 times too small.
 
-    Of seed 154 two runs end near to each other, and seven times as far from the motion.
+    Of seed 1964 the errors of long steps and of a run of order 10 are nearly the same.
     """
-    seeds = range(2000) if thorough else (*range(60), 154)
-    assert max(map(unstable_starts.passing, seeds)) < 1
+    seeds = range(2000) if thorough else (*range(60), 154, 1964)
+    parts = list(map(unstable_starts.passing, seeds))
+    assert max(parts) < 1
+    assert sum(part > 0 for part in parts) >= 0.94 * len(parts)
 
 
 def test_two_runs_of_a_rod_that_are_both_far_from_the_motion_are_not_believed():
@@ -186,19 +188,24 @@ def test_in_double_double_a_ball_has_the_same_bits_alone_and_in_a_batch(frames):
         assert (alone.contact == together.contact[i]).all()
 
 
-def test_a_motion_that_double_double_confirms_is_kept():
+def test_one_run_in_double_double_confirms_a_motion_of_a_larger_estimate(monkeypatch):
     """Its roundings might be larger than the accuracy; they are not."""
-    rng = np.random.default_rng(3)
-    orders = []
+    rng, counts = np.random.default_rng(3), []
+    take = motion._long_steps
+    monkeypatch.setattr(motion, "_long_steps", lambda *given: counts.append(given[1]) or take(*given))
     for _ in range(20):
         asked = of(rng.uniform(0.2, 1, 3), 1.0, rng.standard_normal(3), 3 * rng.standard_normal(3), 1, 100.0, 1e-9)
-        long = moved(replace(asked, accuracy=1e-8))
-        if 1e-9 < long.error[0] < 8e-9:
+        long = moved(replace(asked, accuracy=1e-7))
+        if 1e-9 < long.error[0] < 1e-7:
+            counts.clear()
             found = doubled(asked, long, np.zeros(1))
-            orders.append(int(found.order[0]))
             assert true(asked, found, 1 / 32) < found.error <= 1e-9
-            assert (found.gamma == long.gamma).all() == (orders[-1] == EXTRAPOLATED)
-    assert EXTRAPOLATED in orders
+            if len(counts) == 1:
+                break
+    assert len(counts) == 1
+    long.gamma[:, -1] += 1e-8
+    assert doubled(asked, long, np.zeros(1)).error <= 1e-9  # by a second run
+    assert len(counts) == 3
 
 
 def test_a_ball_with_more_than_its_share_of_an_accuracy_is_given_up_and_followed_again(monkeypatch):
