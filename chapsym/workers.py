@@ -51,7 +51,9 @@ class Processes(ProcessPoolExecutor):
         self.shutdown(wait=False, cancel_futures=True)
         for process in children:
             process.terminate()
-        if manager is not None:  # else it may close its pipe when Python, at its end, writes to it
+        if (
+            manager is not None and manager.is_alive()
+        ):  # else it may close its pipe when Python, at its end, writes to it
             manager.join(LONG)
 
 
