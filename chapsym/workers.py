@@ -51,10 +51,8 @@ class Processes(ProcessPoolExecutor):
         self.shutdown(wait=False, cancel_futures=True)
         for process in children:
             process.terminate()
-        if (
-            manager is not None and manager.is_alive()
-        ):  # else it may close its pipe when Python, at its end, writes to it
-            manager.join(LONG)
+        if manager is not None and manager.is_alive():
+            manager.join(LONG)  # else it may close its pipe when Python, at its end, writes to it
 
 
 @contextmanager

@@ -44,7 +44,8 @@ def map_run(
 
 def check_steps(last: int) -> None:
     """Raises BadInput if the checker does not follow as many steps as the last frame is at."""
-    if not 0 < last <= (most := checker.document.MOST_STEPS):
+    most = checker.document.MOST_STEPS
+    if not 0 < last <= most:
         raise BadInput(f"the checker follows 1 to {most} steps, and the last frame of the run is at {last}")
 
 
