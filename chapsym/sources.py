@@ -16,6 +16,14 @@ def fingerprint(module: str, besides: Collection[str] = (), more: str = "") -> s
     return digest.hexdigest()[:16]
 
 
+def whole(package: Path) -> str:
+    """A hash of all Python files in the folder of a package; much faster than that of a closure."""
+    digest = hashlib.sha256()
+    for path in sorted(package.rglob("*.py")):
+        digest.update(str(path.relative_to(package)).encode() + b"\n" + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
 def closure(module: str, besides: Collection[str] = (), own: bool = False) -> set[str]:
     """The module and all that it imports, directly or through others, of chapsym or of its own folder; but some.
 

@@ -51,6 +51,8 @@ def lab(
 
     A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
     """
+    import chapsym
+    from chapsym import sources
     from chapsym.files import CannotWrite, alone, check_destination, made, write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded
     from chapsym.mechanics.claims import name_of
@@ -83,8 +85,10 @@ def lab(
     if certificates and systems:
         made(certificates)
 
+    code = sources.whole(Path(chapsym.__path__[0]))  # a cell that other code measured is measured again
+
     def started(path: Path, system: "System", later: Later) -> Begun:
-        key, cells = system.digest(length, halve), list[Callable[[], "Cell | Data"]]()
+        key, cells = system.digest(length, halve, code), list[Callable[[], "Cell | Data"]]()
         of, own = path if jobs > 1 else system, methods
         if not method and not system.discrete:
             own = [one for one in methods if one != "own"]

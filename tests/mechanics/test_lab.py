@@ -5,12 +5,14 @@ import math
 import os
 import shutil
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from commands import answer, chapsym, refused
 from systems import SYSTEMS
 
-from chapsym import mechanics
+import chapsym as chapsym_package
+from chapsym import mechanics, sources
 
 FILE = SYSTEMS / "particle.py"
 
@@ -54,6 +56,9 @@ def test_json_is_gone_on_with(tmp_path, spring):
     third = answer("lab", "--method", "dla", *options[:-1], changed)
     assert third["cells"][-1]["drift"] != 12.5
     assert len(json.loads(out.read_text(encoding="utf-8"))["cells"]) == 3
+    keys = {cell["key"] for cell in json.loads(out.read_text(encoding="utf-8"))["cells"]}
+    system, code = mechanics.loaded(spring), sources.whole(Path(chapsym_package.__path__[0]))
+    assert system.digest(None, False, code) in keys  # what other code measured is measured again
     cell = data["cells"][0]
     for odd in (
         {"key": "a", "method": "dla", "steps": 10}, cell | {"verdicts": []},
