@@ -753,9 +753,8 @@ def _long_steps(problem: Problem, columns: int, steps: int, progress: Callable[[
         columns=columns, every=each, attitude=False if problem.attitude is None else problem.attitude,
         contact=problem.contact, precision="double-double", threads=problem.threads, progress=progress,
     )  # fmt: skip
-    reached = run.taken // each * together // times
     how = np.zeros(len(problem)), np.full(len(problem), 2 * columns), np.full(len(problem), ends * each)
-    found = Motion(run.angular_momentum, run.gamma, run.attitude, run.contact, reached, run.status, *how)
+    found = Motion(run.angular_momentum, run.gamma, run.attitude, run.contact, run.taken // each, run.status, *how)
     return found if together == 1 else _filled(problem, found, together)
 
 

@@ -38,7 +38,7 @@ MOST_DIGITS, MOST_BITS = 4_000, 2**20
 #: The largest limit in seconds; a larger one is no limit.
 LONGEST = 1e9
 #: The largest number of times; a generator may have no end.
-MOST_TIMES = 10**7
+MOST_TIMES = 10**6
 #: The bits by which writing may enlarge a radius: radius and midpoint are rounded, which adds .15 of it.
 ROUNDED = 0.25
 #: The bits of the next attempt beyond the missing ones.

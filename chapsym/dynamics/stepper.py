@@ -294,6 +294,8 @@ class Stepper(UnderWay):
         if self._follows:
             self._spin[:] = self._ends["attitude"][1] = initial_attitude(attitude, g)
             self._spot[:] = self._ends["contact"][1] = 0.0
+        elif attitude is not True:
+            initial_attitude(attitude, g)  # refuses what is none
         self._gamma[:] = g
         self._go_on(k)
 

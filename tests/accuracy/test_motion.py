@@ -87,6 +87,7 @@ def test_estimates_are_above_the_errors_of_balls_of_all_shapes(by, turn, thoroug
             asked = of(moments, D, gamma, omega, frames, 10 ** rng.uniform(0, 1.5), accuracy)
             found = by(asked)
             assert true(asked, found, turn) < found.error <= accuracy, (seed, i)
+            assert found.reached == frames
             orders.add(int(found.order[0]))
     # Of 14 000 balls few need double-double.
     assert EXTRAPOLATED in orders if by is moved else min(orders) > EXTRAPOLATED

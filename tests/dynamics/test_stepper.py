@@ -149,6 +149,11 @@ def test_omega_is_that_of_a_trajectory():
             _ = Stepper(chapsym.Ball(tensor, 0), momentum, (0, 0, 1), time_step=1e-3).omega
 
 
+def test_a_restart_refuses_an_attitude_that_is_none_where_none_is_followed():
+    with pytest.raises(BadInput, match="attitude"):
+        Stepper(BALL, K, GAMMA).restart(K, GAMMA, "rubbish")
+
+
 @pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))])
 @pytest.mark.parametrize("options", [TRACED, {"order": 4}], ids=str)
 def test_a_copy_goes_its_own_way(copied, options):
