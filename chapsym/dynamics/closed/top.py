@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.generated import curve_increment, gibbs_newton, precession_parts, turn
+from chapsym.generated import curve_increment, precession_parts, turn
 from chapsym.numbers import Enclosure, is_a
 
 from .. import kernels
@@ -46,9 +46,6 @@ if TYPE_CHECKING:
 
 #: Working bits of a step: moments may be equal to 1e-15, and Λl - 1 may be as small as SMALLEST_TURN².
 BITS = 512
-MOST_CORRECTIONS = 12
-#: The relative size of the last correction of the Gibbs vector of a step.
-SETTLED = 2.0**-130
 #: A direction of 𝒦 that moves by less than this while the body turns by 1 radian is left to `trajectory`.
 SMALLEST_TURN = 1e-40
 #: The largest distance of the step of the map from the point of the curve; a larger one means another branch.
@@ -310,6 +307,8 @@ class ExactCurve:
         """The motion by the increment and the rotation of the first step in float64: Gibbs vector by Newton, then u."""
         from flint import acb, arb
 
+        from ..levels.proved_root import refined
+
         tensor, contact = [arb(float(x)) for x in curve.ball.mass_tensor], arb(float(curve.ball.D))
         moments = [tensor[(i + 1) % 3] + tensor[(i + 2) % 3] + contact for i in curve.axes]
         vector = [arb(float(x)) for x in (axis if momentum is None else momentum)]
@@ -322,7 +321,10 @@ class ExactCurve:
         k2 = k2 if curve.modulus > 0.0 else arb(0)
         if not k2 < 1:
             raise BadInput("the motion is on the other side of the separatrix by a rounding; run `trajectory`")
-        gibbs = _gibbs_vector(rotation, [height * x / 2 for x in direction], direction, tensor, contact)
+        known, K = tuple(arb(float(x)) for x in rotation), tuple(height * x for x in direction)
+        if (q := refined(known, K, tuple(direction), tuple(tensor), (contact,))) is None:
+            raise BadInput("the step is at the fold of its branch; take a shorter time step")
+        gibbs = [(x / q[0]).mid() for x in q[1:]]
         after = [x + y for x, y in zip(direction, turn(arb(1), *gibbs, *direction), strict=True)]
         quarter = acb(k2).elliptic_k().real
         start, end = (acb.elliptic_f(acb(amplitude(curve, moments, v)), acb(k2)).real for v in (direction, after))
@@ -410,22 +412,6 @@ def _mean(exact: ExactCurve) -> tuple[float, float]:
         angle -= factor * (third[1] - third[0] - exact.increment * whole / exact.quarter)
     high, low = as_pair(angle / (2 * arb.pi()))
     return high - round(high), low
-
-
-def _gibbs_vector(rotation: Floats, half: list[arb], direction: list[arb], J: list[arb], D: arb) -> list[arb]:
-    """The Gibbs vector of a step from 𝒦/2 and γ along it, by Newton's iteration from its rotation in float64."""
-    from flint import arb
-
-    u = [arb(float(x)) / arb(float(rotation[0])) for x in rotation[1:]]
-    inertia = [J[(i + 1) % 3] + J[(i + 2) % 3] for i in range(3)]
-    for _ in range(MOST_CORRECTIONS):
-        p0, p1, p2, p3, *_ = gibbs_newton(*(*u, *half, *direction, *inertia, D))
-        found = [(x / p0).mid() for x in (p1, p2, p3)]
-        moved = max(abs(float(x - y)) for x, y in zip(found, u, strict=True))
-        u = found
-        if moved <= SETTLED * max(abs(float(x)) for x in u):
-            return u
-    raise BadInput("the step is at the fold of its branch; take a shorter time step")
 
 
 def is_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
