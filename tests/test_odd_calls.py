@@ -258,7 +258,7 @@ REFUSED = {
     "balls must be True or False": lambda: run().to_pandas(balls=np.ones(3)),
     "run must be a result, its Dataset": lambda: chapsym.interpolated(run().to_pandas(), 0),
     "angular_momentum must be 3 numbers, not": lambda: chapsym.certified_motion(BALL, itertools.count(), UP, 1),
-    "times must be at most 10000000 numbers, not": lambda: chapsym.certified_motion(BALL, K, UP, itertools.count()),
+    "times must be at most 1000000 numbers, not": lambda: chapsym.certified_motion(BALL, K, UP, itertools.count()),
     "times must be a number": lambda: chapsym.certified_motion(BALL, K, UP, Unheard()),
     "ball must be a chapsym.Ball": lambda: chapsym.step(Unheard(), K, UP),
     "steps must be a whole number": lambda: chapsym.trajectory(BALL, K, UP, Whole(3)),

@@ -671,8 +671,15 @@ def doubled(
 
     long: the balls by long steps in double precision; started: the estimated effect of the rounding of the start, (n,).
     Steps and estimates of a ball depend only on the ball; balls of the same steps share a run.  A ball that more steps
-    do not improve keeps its error: the effect of the start is larger than the accuracy.
+    do not improve keeps its error: the effect of the start is larger than the accuracy.  Few frames are divided, to
+    compare runs more often.
     """
+    if (times := -(-COMPARED // problem.frames)) > 1:
+        often = replace(problem, interval=problem.interval / times, frames=problem.frames * times)
+        again = often.nothing()
+        _run(often, often.survey[FIRST], often.survey[ALLOWED], again, lambda done: None, True)
+        again.total[:] = np.maximum(again.total, long.total)
+        return doubled(often, again, started, progress).every(times)
     n = len(problem)
     found, left, before = problem.nothing(), np.arange(n), np.full(n, np.inf)
     columns, steps = cheapest(problem, long.total)
@@ -723,8 +730,7 @@ def _verified(
     ball to its start.
     """
     run = _long_steps(problem, columns, steps, progress)
-    times = (run.gamma.shape[1] - 1) // problem.frames
-    found, off = run.every(times), apart(problem, long, run.every(times)).max(axis=-1)
+    off = apart(problem, long, run).max(axis=-1)
     near = long.error <= np.minimum(NEAR * problem.accuracy, SMALL * problem.units)
     rest = np.flatnonzero(~(near & (_stated(problem, started, off) + run.error <= problem.accuracy)))
     if len(rest):
@@ -733,8 +739,8 @@ def _verified(
         off[rest] = apart(few, run.of(rest), other).max(axis=-1)
         off[rest[other.status != Status.TAKEN]] = np.nan
     off = np.where(np.isnan(off), np.inf, off)
-    found.error[:] = np.where(run.status == Status.TAKEN, _stated(problem, started, off) + run.error, np.nan)
-    return found, off
+    run.error[:] = np.where(run.status == Status.TAKEN, _stated(problem, started, off) + run.error, np.nan)
+    return run, off
 
 
 def _stated(problem: Problem, started: Floats, off: Floats) -> Floats:
@@ -743,13 +749,12 @@ def _stated(problem: Problem, started: Floats, off: Floats) -> Floats:
 
 
 def _long_steps(problem: Problem, columns: int, steps: int, progress: Callable[[int], None]) -> Motion:
-    """The frames by long steps in double-double, `COMPARED` or more, with the error of what is in double precision."""
+    """The frames by long steps in double-double, with the error of what is in double precision."""
     frames = problem.frames
-    together, times = max(frames // steps, 1), -(-COMPARED // frames)
-    each = 1 if together > 1 else -(-steps // (frames * times))
-    ends = frames * times if together == 1 else (frames - 1) // together
+    together, each = max(frames // steps, 1), -(-steps // frames)
+    ends = frames if together == 1 else (frames - 1) // together
     run = extrapolate(
-        problem.ball, problem.K, problem.gamma, Fraction(problem.interval) * together / (times * each), ends * each,
+        problem.ball, problem.K, problem.gamma, Fraction(problem.interval) * together / each, ends * each,
         columns=columns, every=each, attitude=False if problem.attitude is None else problem.attitude,
         contact=problem.contact, precision="double-double", threads=problem.threads, progress=progress,
     )  # fmt: skip

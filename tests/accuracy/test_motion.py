@@ -195,7 +195,7 @@ def test_one_run_in_double_double_confirms_a_motion_of_a_larger_estimate(monkeyp
     take = motion._long_steps
     monkeypatch.setattr(motion, "_long_steps", lambda *given: counts.append(given[1]) or take(*given))
     for _ in range(20):
-        asked = of(rng.uniform(0.2, 1, 3), 1.0, rng.standard_normal(3), 3 * rng.standard_normal(3), 1, 100.0, 1e-9)
+        asked = of(rng.uniform(0.2, 1, 3), 1.0, rng.standard_normal(3), 3 * rng.standard_normal(3), 40, 100.0, 1e-9)
         long = moved(replace(asked, accuracy=1e-7))
         if 1e-9 < long.error[0] < 1e-7:
             counts.clear()
