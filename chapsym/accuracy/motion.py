@@ -585,8 +585,9 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         part = problem.of(poor)
         of_start, further = np.nan_to_num(started[poor]), partial(report, others=len(problem) - len(poor))
         other = doubled(part, found.of(poor), of_start, further)
-        # Other estimates are of runs that are far from the motion.
-        better = (other.error <= accuracy) | (found.status[poor] != Status.TAKEN)
+        # Other estimates are of runs that are far from the motion; of two balls that stopped the later one is kept.
+        later = (found.status[poor] != Status.TAKEN) & (other.reached >= found.reached[poor])
+        better = (other.error <= accuracy) | later
         found.put(poor[better], other.of(better))
     progress(len(problem))
     return found

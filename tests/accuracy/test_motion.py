@@ -209,6 +209,21 @@ def test_one_run_in_double_double_confirms_a_motion_of_a_larger_estimate(monkeyp
     assert len(counts) == 3
 
 
+@pytest.mark.parametrize("reached", [2, 6])
+def test_of_two_runs_that_stopped_the_later_one_is_kept(monkeypatch, reached):
+    run, other = motion._run, problem([14.0, -6.0, 3.0]).nothing()
+    other.status[:], other.reached[:], other.error[:] = Status.FOLDED, reached, np.nan
+
+    def stopped(part, first, allowed, found, *more):
+        worst = run(part, first, allowed, found, *more)
+        found.status[:], found.reached[:], found.error[:] = Status.FOLDED, 5, np.inf
+        return np.inf, *worst[1:]
+
+    monkeypatch.setattr(motion, "_run", stopped)
+    monkeypatch.setattr(motion, "doubled", lambda *given: other)
+    assert moved(problem([14.0, -6.0, 3.0])).reached == max(reached, 5)
+
+
 def test_a_ball_with_more_than_its_share_of_an_accuracy_is_given_up_and_followed_again(monkeypatch):
     runs = []
 
