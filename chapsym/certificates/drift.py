@@ -39,7 +39,7 @@ class Return(Orbit):
 
         def reported(*given: Any) -> Any:
             """Reports each step: one of many digits takes seconds."""
-            progress(f"the orbit is enclosed, step {self.flow.steps + 1}")
+            progress(f"enclosing the orbit, step {self.flow.steps + 1}")
             return step(*given)
 
         self.flow.step = reported  # type: ignore[assignment, method-assign]

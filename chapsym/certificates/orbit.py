@@ -16,7 +16,7 @@ from flint import arb, arb_mat
 from chapsym import checker
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.checker.orbit import attracts
-from chapsym.dynamics.errors import BadInput, TooWide
+from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.start import fraction
 from chapsym.numbers.precisions import flint_bits
 
@@ -29,7 +29,7 @@ from .passage import Level, Map, Passage, Vector, identity
 KIND = "periodic-orbit"
 #: The working bits for families; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along a family.
 SEARCH_BITS, RESOLVED = 256, 160
-#: The largest number whose square is within float64.
+#: Squares of larger numbers, and sums of these, may be beyond float64.
 FAR = 2**500
 #: The least number of decimals beyond those of det(1 - DG^q); by default one more per step, for the growth of boxes.
 SIGNIFICANT, SPARE_DIGITS = 3, 20
@@ -67,7 +67,7 @@ def periodic_orbit(
             return _with_radius(found, radius, steps, progress)
         except checker.Rejected as error:
             raise BadInput(f"the checker does not accept what was found: {error}; take other digits") from None
-        except (NotProved, TooWide):
+        except families.LOST:
             if bits > 8 * (SEARCH_BITS + 4 * (digits or 0)):
                 raise BadInput(f"no orbit of {steps} steps is proved there; choose another <momentum, gamma>") from None
             bits = 2 * bits

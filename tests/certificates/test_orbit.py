@@ -157,8 +157,11 @@ def test_families_that_cannot_be_followed_are_left_out(monkeypatch, family):
     monkeypatch.setattr(families, "_symmetric", lambda level, steps: starts)
     monkeypatch.setattr(families, "_followed", Mock(side_effect=[*errors, family]))
     assert list(families.families(NEAR, 20, lambda what: None)) == [family]
-    monkeypatch.setattr(families, "near", Mock(side_effect=ZeroDivisionError))
     monkeypatch.setattr(families, "families", lambda *_: iter([family]))
+    monkeypatch.setattr(families, "solved", Mock(side_effect=ZeroDivisionError))
+    with pytest.raises(BadInput, match="no orbit of 20 steps is proved there"):
+        orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20)
+    monkeypatch.setattr(families, "near", Mock(side_effect=ZeroDivisionError))
     with pytest.raises(BadInput, match="no orbits of 20 steps that are not symmetric were found"):
         orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20)
 
