@@ -1,7 +1,7 @@
 """Certificates: Arb balls that contain the true orbit of a float trajectory, and proved bounds of its errors."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -155,17 +155,32 @@ def certify(
     bits = whole_number(bits, "bits", 2, MOST_BITS)
     callback(progress)
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
+    _check_frames(trajectory, given)
     enclosed, selected = _orbit(trajectory, given, bits, progress)
     errors = {name: None if array is None else errors_of(array, given[name], bits) for name, array in enclosed.items()}
     return Certificate(trajectory, *enclosed.values(), *errors.values(), selected)  # type: ignore[arg-type, call-arg]
 
 
+def _check_frames(trajectory: Trajectory, given: Mapping[str, np.ndarray | None]) -> None:
+    """Raises BadInput for frames that no run has, as a trajectory may be put together by hand."""
+    index = trajectory.index
+    if len(index) > 1 and (np.diff(index) != max(index[1] - index[0], 1)).any():
+        raise BadInput("the steps of the frames, trajectory.index, must be equally far apart, as those of a run")
+    if given["contact"] is not None and trajectory.ball.radius is None:
+        raise BadInput("trajectory.contact needs the radius: give its ball mass and radius")
+    reached = index - index[0] <= trajectory.taken[..., np.newaxis]
+    for name, array in given.items():
+        if array is not None and any(x is None for x in array[reached].flat):
+            raise BadInput(f"trajectory.{name} has numbers that are not finite in frames that were reached")
+
+
+@np.errstate(invalid="ignore")  # inf - inf
 def exactly(trajectory: Trajectory, name: str) -> np.ndarray:
-    """An array of a trajectory as exact fractions, the midpoints of balls; None where there are no numbers."""
+    """An array of a trajectory as exact fractions, the midpoints of balls; None where numbers are not finite."""
     array = getattr(trajectory, name)
     rest = None if trajectory.low is None else getattr(trajectory.low, name)
     lows = [0.0] * array.size if rest is None else rest.flat
-    values = [None if x != x else fraction(x) + fraction(y) for x, y in zip(array.flat, lows, strict=True)]
+    values = [None if x - x != 0 else fraction(x) + fraction(y) for x, y in zip(array.flat, lows, strict=True)]
     return np.array(values, dtype=object).reshape(array.shape)
 
 

@@ -1,12 +1,12 @@
 """The motion between the frames of a run: quintics through the states, with their rates by (2.3)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import kernels
-from .ball import Asked, Ball, Floats, numbers
+from .ball import Asked, Ball, Floats, checked_before, largest_moment, numbers
 from .errors import BadInput
 from .shown import Brief
 
@@ -57,9 +57,30 @@ class States:
     @np.errstate(over="ignore", under="ignore", invalid="ignore")  # an overflow is a large rotation
     def turning(self) -> float:
         """The largest rotation between successive frames of all balls, in radians; 0 for a single frame."""
-        speed = np.sqrt((self._omega() ** 2).sum(axis=-1))
-        turns = np.maximum(speed[..., 1:], speed[..., :-1]) * np.diff(self.clock)
+        own, *_ = self._in_own_units()
+        speed = np.sqrt((own._omega() ** 2).sum(axis=-1))
+        turns = np.maximum(speed[..., 1:], speed[..., :-1]) * np.diff(own.clock)
         return float(np.max(turns, initial=0.0, where=self.there[..., 1:] & self.there[..., :-1]))
+
+    def _in_own_units(self) -> tuple["States", int, np.ndarray, np.ndarray]:
+        """The states in units in which the run takes about 1, and each ball's largest moment and radius are about 1.
+
+        In the units of a run products of its numbers may be beyond float64.  Also returned are the exponents of the
+        units, which are powers of two: of time, and, (...), of moments and lengths.
+        """
+        ball, time = self.ball, int(np.frexp(self.clock[-1] - self.clock[0])[1])
+        mass = np.frexp(largest_moment(ball.mass_tensor, ball.D))[1]
+        length = np.frexp(0.0 if ball.radius is None else ball.radius)[1]
+        tensor, D = np.ldexp(ball.mass_tensor, -mass[..., np.newaxis]), np.ldexp(ball.D, -mass)
+        own = checked_before(tensor, D, None if ball.radius is None else np.ldexp(ball.radius, -length))
+        contact = None if self.contact is None else np.ldexp(self.contact, -length[..., np.newaxis, np.newaxis])
+        K = np.ldexp(self.momentum, time - mass[..., np.newaxis, np.newaxis])
+        return (
+            replace(self, ball=own, clock=np.ldexp(self.clock, -time), momentum=K, contact=contact),
+            time,
+            mass,
+            length,
+        )
 
     def _omega(self) -> Floats:
         return kernels.angular_velocity(self.momentum, self.gamma, *self._body())
@@ -83,8 +104,19 @@ class States:
                 f"frames are up to {turn:.3g} radians of turning apart, too far to tell what is between (at most "
                 f"{MOST_TURN}): keep more frames, with a smaller `every`"
             )
+        own, time, mass, length = self._in_own_units()
+        K, gamma, omega, attitude, contact = own._between(np.ldexp(wanted, -time))
+        K, omega = np.ldexp(K, (mass - time)[..., np.newaxis, np.newaxis]), np.ldexp(omega, -time)
+        contact = None if contact is None else np.ldexp(contact, length[..., np.newaxis, np.newaxis])
+        found = K, gamma, omega, attitude, contact
+        if given.ndim == 0:
+            return Moments(given, *(None if v is None else v[..., 0, :] for v in found))  # type: ignore[arg-type]
+        return Moments(asked, *found)
+
+    def _between(self, times: Floats) -> tuple[Floats, Floats, Floats, Asked, Asked]:
+        """K, γ, ω, attitude and contact, (..., times, k); NaN where a ball stopped."""
         spin = self._omega()
-        quintic = Quintic(self.clock, wanted)
+        quintic = Quintic(self.clock, times)
         bent = kernels.angular_velocity(_torque(spin, self._body()[0]), self.gamma, *self._body())
         K, gamma = (quintic.through(v, *_fixed_in_space(v, spin, bent)) for v in (self.momentum, self.gamma))
         gamma = _unit(gamma)
@@ -99,9 +131,7 @@ class States:
         for values in found:
             if values is not None:
                 values[gone] = np.nan
-        if given.ndim == 0:
-            return Moments(given, *(None if v is None else v[..., 0, :] for v in found))  # type: ignore[arg-type]
-        return Moments(asked, *found)
+        return found
 
     def _rolling(self, spin: Floats, bent: Floats) -> tuple[Floats, Floats] | None:
         """Velocity and acceleration of the contact point, (..., frames, 2): ρ ω × e₃ in space; None if unknown."""

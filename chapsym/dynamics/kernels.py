@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.generated import TABLE
 
-from .ball import Floats, numbers
+from .ball import Floats, largest_moment, numbers
 from .errors import BadInput
 
 #: A generated function of numbers of any precision, or of arrays: it returns one number or several.
@@ -129,3 +129,12 @@ energy = kernel("energy")
 contact_momentum = kernel("contact_momentum")
 angular_velocity = kernel("angular_velocity")
 turn = kernel("turn")
+
+
+def kinetic_energy(K: Floats, gamma: Floats, J: Floats, D: Floats) -> Floats:
+    """`energy`, computed with K and moments near 1: squares of momenta may be beyond float64 where it is not."""
+    if K.dtype == object:
+        return energy(K, gamma, J, D)
+    up, down = np.frexp(np.abs(K).max(axis=-1))[1], np.frexp(largest_moment(J, D))[1]
+    unit = energy(np.ldexp(K, -up[..., np.newaxis]), gamma, np.ldexp(J, -down[..., np.newaxis]), np.ldexp(D, -down))
+    return np.asarray(np.ldexp(unit, 2 * up - down))

@@ -106,7 +106,7 @@ OUTPUTS: dict[str, Output] = {
     "contact": Output("contact point", "m", ("plane",), ("plane",), radius=True),
     "energy": Output(
         "kinetic energy", "J", needs=_GAMMA | {K}, with_D=_GAMMA, kernels=("energy",),
-        derive=lambda J, D, given: kernels.energy(given[K], given["gamma"], J, D),
+        derive=lambda J, D, given: kernels.kinetic_energy(given[K], given["gamma"], J, D),
     ),
     "angular_momentum": Output(
         "angular momentum K about the contact point, body axes", "kg m2 s-1", ("axis",), _MATRIX,

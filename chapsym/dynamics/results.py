@@ -413,7 +413,8 @@ class Trajectory:
         Between two frames each is a quintic through the states and their first two derivatives by (2.3), of order 6 in
         the time h between frames.  For alike moments the errors of γ, attitude and contact point (in radii) are about
         (|ω|h)⁶/46080; those of ω, and for unlike moments, are larger.  A run of the map is interpolated in the same
-        way; its derivatives by (2.3) have the error of the map.  The result is in float64 at every precision.
+        way; its derivatives by (2.3) have the error of the map.  The result is in float64 at every precision.  Each
+        call reads all frames: many times in one call take little more than one.
 
         Parameters
         ----------
@@ -517,7 +518,7 @@ class Trajectory:
             if ball.axes is not None:
                 K, gamma = ball.to_principal(K, frames=True), ball.to_principal(gamma, frames=True)
             frames = K, gamma, ball.mass_tensor[..., np.newaxis, :], ball.D[..., np.newaxis]
-            omega, energy = kernels.angular_velocity(*frames), np.array(kernels.energy(*frames))
+            omega, energy = kernels.angular_velocity(*frames), np.array(kernels.kinetic_energy(*frames))
             omega = omega if ball.axes is None else ball.from_principal(omega, frames=True)
             omega[missing] = energy[missing] = np.nan
             return {name: self._in_range(name, x) for name, x in (("omega", omega), ("energy", energy))}

@@ -195,6 +195,22 @@ def test_the_contact_point_starts_at_that_of_the_run():
     assert proof.contact_error.max() < 1e-15
 
 
+@pytest.mark.parametrize(
+    ("frames", "sentence"),
+    [
+        ({"index": [0, 1, 3]}, "equally far apart"),
+        ({"index": [0, 0, 0]}, "equally far apart"),
+        ({"gamma": [(0, 0, 1), (0, 0, np.inf), (0, 0, 1)]}, "trajectory.gamma has numbers that are not finite"),
+        ({"momentum": [(np.nan, 0, 0)] * 3}, "trajectory.momentum has numbers that are not finite"),
+        ({"contact": [(0, 0)] * 3}, "trajectory.contact needs the radius"),
+    ],
+)
+def test_frames_that_no_run_has_are_refused(frames, sentence):
+    run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (0, 0, 1), 2)
+    with pytest.raises(BadInput, match=sentence):
+        chapsym.certify(replace(run, **{name: np.array(values) for name, values in frames.items()}))
+
+
 def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
     run = chapsym.trajectory(BALL, K, GAMMA, 5)
     with pytest.raises(BadInput, match="certify takes what"):

@@ -81,6 +81,26 @@ def test_without_the_attitude_the_points_of_contact_of_a_batch_are_nearly_those_
     assert np.abs(found.contact - run.at([0.05, 0.33]).contact).max() < 1e-8
 
 
+@pytest.mark.parametrize(
+    ("mass", "length", "time"),
+    [(2.0**600, 1.0, 1.0), (2.0**-100, 2.0**-150, 2.0**300), (2.0**-600, 2.0**100, 2.0**-350)],
+)
+@pytest.mark.parametrize("outputs", [{}, {"attitude": None}])
+def test_no_unit_changes_a_bit(mass, length, time, outputs):
+    """Powers of two, in which products of the numbers of the run are beyond float64."""
+    run, moment = replace(rolled(48), **outputs), mass * length**2
+    ball = chapsym.Ball(BALL.mass_tensor * moment, BALL.D * moment, BALL.radius * length)
+    step = run.time_step * time
+    other = replace(run, ball=ball, momentum=run.momentum * moment, time_step=step, contact=run.contact * length)
+    found, there = run.at([0.1, 1.23]), other.at(np.array([0.1, 1.23]) * time)
+    assert (there.momentum == found.momentum * moment).all()
+    assert (there.omega == found.omega / time).all()
+    assert (there.gamma == found.gamma).all()
+    assert (there.contact == found.contact * length).all()
+    energy, known = (one.to_xarray().energy.values for one in (other, run))
+    assert (energy == known * moment / time**2).all()
+
+
 @pytest.mark.parametrize("times", [-0.1, [0.0, 2.1], np.nan, "soon", [[0.0]]])
 def test_a_time_that_is_none_of_the_run_is_refused(times):
     with pytest.raises(chapsym.BadInput, match="times must"):
