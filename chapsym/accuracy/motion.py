@@ -709,10 +709,10 @@ def doubled(
 def cheapest(problem: Problem, total: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The columns with the fewest stages for the accuracy by the law, and the steps, for each ball."""
     angle, every = problem.rate * problem.end, range(FEWEST, MOST_OF_PAIRS + 1)
-    steps = np.array([steps_of(columns, angle, problem.units, problem.accuracy) for columns in every])
+    law = np.array([steps_of(columns, angle, problem.units, problem.accuracy) for columns in every])
+    steps = np.maximum(law, np.maximum(SHARE * total, COMPARED))
     best = (steps * np.array([[stages(columns)] for columns in every])).argmin(axis=0)
-    wanted = np.take_along_axis(steps, best[np.newaxis], axis=0)[0]
-    return np.array(every)[best], shared(np.maximum(np.maximum(wanted, SHARE * total), COMPARED))
+    return np.array(every)[best], shared(np.take_along_axis(steps, best[np.newaxis], axis=0)[0])
 
 
 def shared(steps: Floats) -> np.ndarray:
