@@ -78,7 +78,7 @@ def lab(
                 raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
             if certificates and name_of(system) in [name_of(one) for _, one in systems]:
                 raise BadSystem(f"{system.name} and another system would have certificates of one name: rename one")
-            system.beginning  # noqa: B018, which refuses a start that breaks a constraint
+            system.beginning, system.length(length)
             systems.append((path, system))
         except BadSystem as error:
             wrong.append(str(error))

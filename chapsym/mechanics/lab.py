@@ -14,7 +14,7 @@ from chapsym.prove.trees import Data
 from .judged import Verdict, verdicts
 from .methods import Scheme
 from .motion import Motion, NotSolved, Runner, whole_number
-from .system import System, number
+from .system import System
 
 #: The fraction of the steps at each end whose means are compared, and the number of stored points of the energy.
 END, KEPT = 10, 240
@@ -146,7 +146,7 @@ def measured(
     """
     runner = Runner(system, method)
     steps = whole_number(steps, "steps")
-    h = runner.length if length is None else number(length, "the length of a step")
+    h = system.length(length)
     first = Cell(system.name, method, steps, h, kept=keeps(system, runner.scheme))
     if decide:
         first = replace(first, verdicts=verdicts(system, runner.scheme))

@@ -27,7 +27,7 @@ from chapsym.numbers.precisions import is_whole
 
 from .algebra import Letters
 from .methods import Scheme, scheme_of
-from .system import STEP, BadSystem, System, a_system, in_floats, number, rational
+from .system import STEP, BadSystem, System, a_system, in_floats, rational
 
 #: The state of a method: numbers, or in enclosures a set of them (see `Sets`).
 State = Any
@@ -293,11 +293,6 @@ class Runner:
         """The quantities that are recorded, by name."""
         return {**self.system.integrals, **self.scheme.integrals}
 
-    @property
-    def length(self) -> float:
-        """The usual length of a step."""
-        return number(self.system.step, f"{self.system.name}: the step")
-
     @cached_property
     def kernels(self) -> list[Kernel]:
         """The equations, their derivatives by the unknowns, the next state, and the point of evaluation."""
@@ -416,10 +411,8 @@ class Runner:
         NotSolved
             If the equations of a step are not solved.
         """
-        h = self.length if length is None else number(length, "the length of a step")
+        h = self.system.length(length)
         steps, every = whole_number(steps, "steps"), whole_number(every, "every")
-        if not h > 0:
-            raise BadSystem(f"the length of a step must be positive, not {h!r}")
         q, v = self.system.beginning
         with self.level.working(), np.errstate(all="ignore"):
             if start is not None:

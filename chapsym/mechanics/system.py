@@ -384,6 +384,13 @@ class System:
         """The number of a parameter."""
         return number(self.parameters[symbol], f"{self.name}: the parameter {symbol}")
 
+    def length(self, given: object = None) -> float:
+        """The length of a step, by default the usual one; raises BadSystem if it is not a positive number."""
+        found = number(self.step if given is None else given, f"{self.name}: the length of a step")
+        if not found > 0:
+            raise BadSystem(f"{self.name}: the length of a step must be positive, not {found!r}")
+        return found
+
     @cached_property
     def numbers(self) -> np.ndarray:
         """The numbers of all parameters, in order."""

@@ -165,6 +165,7 @@ def test_a_page_with_a_curve_for_each_method(tmp_path, spring):
         ("from chapsym.mechanics import System\nSYSTEM = System('s', (), 0)", [], "s: coordinates must be symbols"),
         ("x = 1", ["--method", "euler"], "'euler' is no method; those are dla, own, dla-left, gni, leapfrog"),
         ("x = 1", ["-o", "lab.txt"], "lab.txt must end in .json or .html"),
+        (FILE.read_text(encoding="utf-8"), ["--length", "0"], "the length of a step must be positive, not 0.0"),
         ("x = 1", ["-o", "none/lab.html"], "the folder none does not exist"),  # before anything is measured
     ],
 )
