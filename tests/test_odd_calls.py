@@ -317,4 +317,13 @@ def test_numpy_may_be_told_to_raise_where_a_number_is_too_small():
         heavy = chapsym.Ball((2.4599347177743027, 0.7256149778934402, 2.529456553471182), 126.00907071213696)
         assert np.isfinite(chapsym.Curve.through(heavy, LOW / np.linalg.norm(LOW)).point(1e-300)).all()
         assert chapsym.roll(tiny, (1, 0, 0), 0.1, 2, attitude=(1, 1e-170, 0, 0)).error < 1e-6
+        single = {"precision": "single", "attitude": (1, 1e-60, 0, 0)}
+        assert chapsym.trajectory(tiny, (0.1, 0.05, 0.2), UP, 2, **single).status == 0
+        assert chapsym.trajectory_vertical(chapsym.Ball((1, 2, 4), 0), 0.1, (1e-200, 0, 1), 3).level().shape == (4,)
         assert chapsym.rotation_number(chapsym.Ball((7.9e-5, 0.36, 4.5e6), 0), 1e-270, (0, 1, 1e-113)) < 1
+
+
+def test_a_momentum_that_underflows_in_the_unit_of_the_stages_is_a_sentence():
+    ball = chapsym.Ball((1e150, 2e150, 0.5e150), 0)
+    with pytest.raises(chapsym.StepNotTaken, match="step 0"):
+        chapsym.trajectory(ball, (5e-324, 0, -5e-324), (0.6, 0, 0.8), 3, order=4)
