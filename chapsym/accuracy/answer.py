@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, extrapolate, kernels, trajectory
+from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, extrapolate, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import (
     Floats,
@@ -31,6 +31,7 @@ from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
 from chapsym.dynamics.levels.proved import lengths
 from chapsym.dynamics.loops.double_double import FIRST
+from chapsym.dynamics.loops.expected import CONDITION, ENDLESS
 from chapsym.dynamics.map import MOST_STEPS as MOST_FRAMES
 from chapsym.dynamics.map import time_limit, until, whole_number
 from chapsym.dynamics.results import some_frames
@@ -99,33 +100,33 @@ class Request:
         return True if self.attitude is False and self.of == "contact" else self.attitude
 
     @cached_property
+    def problem(self) -> Problem:
+        """The request as a problem for double precision."""
+        ball, metres, attitude = self.ball, self.of == "contact", self.attitude
+        start = None if self.body is False else attitude_with(self.gamma) if isinstance(attitude, bool) else attitude
+        given = (ball.mass_tensor, ball.D, ball.radius, self.angular_momentum, self.gamma, start)
+        one: Any = [None if x is None else np.array(x)[np.newaxis] for x in given]
+        tensor, D, radius, K, gamma, first = one
+        parts = {"contact"} if metres else {"momentum", "gamma"}
+        return Problem(
+            checked_before(tensor, D, radius), K, gamma, self.time / self.frames, self.frames, self.accuracy, first,
+            metres, metres, frozenset(parts if attitude is False else parts | {"attitude"}),
+        )  # fmt: skip
+
+    @property
     def rate(self) -> float:
         """|ω| at the start, in rad/s; raises BadInput if K does not determine it."""
-        K, gamma = self.angular_momentum, self.gamma
-        ball, moment = self._scaled()
-        size = int(np.frexp(abs(K).max())[1])
-        with np.errstate(all="ignore"):
-            unit = kernels.angular_velocity(np.ldexp(K, -size), gamma, ball.mass_tensor, ball.D)
-            rate = float(lengths(np.ldexp(unit, size - moment)))
-            turned = rate * self.time
-        if not np.isfinite(unit).all():
+        rate = float(self.problem.rate[0])
+        if not math.isfinite(rate) and self.condition >= ENDLESS:
             raise BadInput("the ball has no angular velocity at this gamma: no inertia about the vertical")
-        if not math.isfinite(turned):
+        if not math.isfinite(rate * self.time):
             raise BadInput("the ball turns too fast for float64: |ω|, or |ω|T, is beyond 1.8e308; take other units")
         return rate
 
-    @cached_property
+    @property
     def condition(self) -> float:
         """An upper bound of the condition number of Λ - Dγγᵀ."""
-        ball = self._scaled()[0]
-        least = float(ball.inertia.min())
-        return float(ball.inertia.max() + ball.D) / least if least > 0 else math.inf
-
-    def _scaled(self) -> tuple[Ball, int]:
-        """The ball in units in which its largest moment is about 1, and the power of two of these units."""
-        ball = self.ball
-        power = int(np.frexp(ball.inertia.max() / 2 + ball.D / 2)[1])
-        return Ball(np.ldexp(ball.mass_tensor, -power), np.ldexp(ball.D, -power)), power
+        return float(self.problem.survey[CONDITION, 0])
 
     @property
     def angle(self) -> float:
@@ -469,27 +470,13 @@ def _foreseen(request: Request, limit: float) -> tuple[Problem | None, Choice]:
     """The problem in double precision, None if that lacks the accuracy, and the first choice."""
     limit = time_limit(limit)
     in_range(request.time, request.angular_momentum)
-    problem = _problem(request)
+    problem = request.problem
     if request.accuracy >= motion.FINEST * request.unit and problem.floor <= motion.ROUNDING * request.accuracy:
         seconds = motion.nominal(problem)
         steps = max(round(problem.expected), 1)
         method = Method(NAMED["double"], motion.EXTRAPOLATED)
         return problem, _within(Choice(method, steps, request.time / steps, seconds), limit)
     return None, _doubled(request, limit)
-
-
-def _problem(request: Request) -> Problem:
-    """The request as a problem for double precision."""
-    ball, metres, body, attitude = request.ball, request.of == "contact", request.body, request.attitude
-    start = None if body is False else attitude_with(request.gamma) if isinstance(attitude, bool) else attitude
-    given = (ball.mass_tensor, ball.D, ball.radius, request.angular_momentum, request.gamma, start)
-    one: Any = [None if x is None else np.array(x)[np.newaxis] for x in given]
-    tensor, D, radius, K, gamma, first = one
-    parts = {"contact"} if metres else {"momentum", "gamma"}
-    return Problem(
-        checked_before(tensor, D, radius), K, gamma, request.time / request.frames, request.frames, request.accuracy,
-        first, metres, metres, frozenset(parts if attitude is False else parts | {"attitude"}),
-    )  # fmt: skip
 
 
 def _as_trajectory(request: Request, found: Motion) -> Trajectory:
