@@ -37,7 +37,6 @@ from chapsym.dynamics import (
 )
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import (
-    SMALLEST,
     Asked,
     Floats,
     batch,
@@ -336,18 +335,10 @@ def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Float
         numbers_of = (*omega.tolist(), *gamma.tolist(), *ball.mass_tensor.tolist(), float(ball.D))
         several = contact_momentum(*numbers_of)
         K = np.array(several)
-        if ORDINARY[0] < epsilon * max(map(abs, several)) < ORDINARY[1]:
+        size = max(map(abs, several))
+        if ORDINARY[0] < size < ORDINARY[1] and ORDINARY[0] < epsilon * size < ORDINARY[1]:
             return K
-    with np.errstate(over="ignore", under="ignore"):  # which is refused
-        K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
-        momentum = epsilon * K
-    if not np.isfinite(momentum).all():
-        raise BadInput("𝒦 = εK is beyond the range of float64, about 1.8e308; take a shorter time step or other units")
-    if (small := np.abs(momentum).max(axis=-1) < SMALLEST).any() and np.any(
-        small & omega.any(axis=-1) & (ball.inertia > 0).all(axis=-1)
-    ):
-        raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
-    return K
+    return kernels.momentum_in_range(ball, omega, gamma, epsilon)
 
 
 def _accuracy(given: float | None) -> float:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.generated import TABLE
 
-from .ball import Floats, largest_moment, numbers
+from .ball import SMALLEST, Ball, Floats, largest_moment, numbers
 from .errors import BadInput
 
 #: A generated function of numbers of any precision, or of arrays: it returns one number or several.
@@ -131,6 +131,20 @@ angular_velocity = kernel("angular_velocity")
 turn = kernel("turn")
 
 
+@np.errstate(over="ignore", under="ignore", invalid="ignore")  # of numbers that are refused
+def momentum_in_range(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Floats:
+    """K = Λω - D⟨ω,γ⟩γ; raises BadInput if float64 loses digits of K or 𝒦 = εK."""
+    K = contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
+    for name, vectors in (("K = Λω - D⟨ω,γ⟩γ", K), ("𝒦 = εK", epsilon * K)):
+        size = np.abs(vectors).max(axis=-1)
+        if not np.isfinite(size).all():
+            raise BadInput(f"{name} is beyond the range of float64, about 1.8e308; take other units of time or mass")
+        if ((size < SMALLEST) & omega.any(axis=-1) & (ball.inertia > 0).all(axis=-1)).any():
+            raise BadInput(f"{name} is below the range of float64, about 2.2e-308; take other units of time or mass")
+    return K
+
+
+@np.errstate(over="ignore", under="ignore")
 def kinetic_energy(K: Floats, gamma: Floats, J: Floats, D: Floats) -> Floats:
     """`energy`, computed with K and moments near 1: squares of momenta may be beyond float64 where it is not."""
     if K.dtype == object:

@@ -119,7 +119,8 @@ class _Scene:
             "" if part == end else f"the first {reading.span(t[:part], label)} of {reading.span(t[:end], label)}"
         )
         self.t, self.attitude, self.contact = t[chosen], q[chosen], None
-        self.form = "{:.2f} s" if label == "time, s" else "step {:.0f}"
+        self.unit, text = power(float(self.t[-1])) if label == "time, s" else (1.0, "")
+        self.form = " ".join(["{:.2f}", *filter(None, (text,)), "s"]) if label == "time, s" else "step {:.0f}"
         rolls = "contact" in fine
         self.figure = Picture(figsize=(4.0, 6.0 if rolls else 4.2))
         above = self.figure.add_axes((0.15, 0.42, 0.7, 0.47) if rolls else (0.1, 0.03, 0.8, 0.77))
@@ -150,7 +151,7 @@ class _Scene:
 
     def show(self, i: int) -> None:
         """Changes the figure to a picture."""
-        self.clock.set_text(" · ".join(filter(None, (self.form.format(self.t[i]), self.span))))
+        self.clock.set_text(" · ".join(filter(None, (self.form.format(self.t[i] / self.unit), self.span))))
         self.image.set_data(self._ball(self.attitude[i]))
         for axis, mark in zip(kernels.rotate(self.attitude[i], np.eye(3)), self.marks, strict=True):
             x, y, depth = self.view.project(axis)

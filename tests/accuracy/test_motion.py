@@ -176,11 +176,17 @@ def test_two_runs_of_a_rod_that_are_both_far_from_the_motion_are_not_believed():
     assert apart(asked, found, closer).max() < found.error
 
 
+def test_a_momentum_that_loses_digits_is_refused_though_its_product_with_the_step_does_not():
+    ball = chapsym.Ball((1e-283, 2e-283, 1.5e-283), 1e-283, 1e-100)
+    with pytest.raises(chapsym.BadInput, match="K = Λω - D⟨ω,γ⟩γ is below the range of float64"):
+        chapsym.roll(ball, (4.3e-39, -4.1e-39, -1.3e-39), 1e37, 10)
+
+
 @pytest.mark.parametrize("frames", [10, 400])
 def test_in_double_double_a_ball_has_the_same_bits_alone_and_in_a_batch(frames):
     asked = problem(np.random.default_rng(5).standard_normal((12, 3)) * 5, frames, 50 / frames, 1e-6)
     together = by_doubled(asked)
-    assert len(set(together.total)) > 2
+    assert len({*zip(together.total, together.order, strict=True)}) > 2  # ways that some of the balls share
     for i in range(12):
         alone = by_doubled(asked.of(np.array([i])))
         assert alone.total == together.total[i]
@@ -205,8 +211,9 @@ def test_one_run_in_double_double_confirms_a_motion_of_a_larger_estimate(monkeyp
                 break
     assert len(counts) == 1
     long.gamma[:, -1] += 1e-8
-    assert doubled(asked, long, np.zeros(1)).error <= 1e-9  # by a second run
-    assert len(counts) == 3
+    counts.clear()
+    assert doubled(asked, long, np.zeros(1)).error <= 1e-9
+    assert len(counts) >= 2  # by a second run
 
 
 @pytest.mark.parametrize("reached", [2, 6])

@@ -104,6 +104,15 @@ def test_thousands_of_balls_are_a_density_that_counts_every_frame():
     assert len([line for line in axis.lines if len(line.get_xdata()) == 91]) == 8
 
 
+@pytest.mark.filterwarnings("error", "ignore::DeprecationWarning")
+def test_balls_that_are_hardly_apart_far_from_the_origin_are_a_density():
+    dataset = results.batch(100, 2, 1)
+    dataset["contact"] = ("ball", "frame", "plane"), np.full((100, 3, 2), 1e6)
+    dataset["contact"][:50, :, 0] = np.nextafter(1e6, 2e6)
+    axis = figures.draw(dataset, "contact").axes[0]
+    assert axis.get_xlim()[0] < axis.get_xlim()[1]
+
+
 def test_an_ellipse_holds_its_share_of_the_balls():
     from matplotlib.path import Path
 
@@ -296,6 +305,11 @@ def test_the_spread_is_the_distance_from_the_mean_in_logarithms_if_it_grows_expo
     away = np.random.default_rng(1).standard_normal((50, 1, 2)) * np.exp(np.linspace(-20, 0, 101))[:, np.newaxis]
     dataset["contact"] = ("ball", "frame", "plane"), away
     assert figures.draw(dataset, "spread").axes[0].get_yscale() == "log"
+    away[25:] = -away[:25]
+    away[[0, 1, 2, 25, 26, 27]] = 0.0  # the least of them is no distance at all
+    above = figures.draw(dataset, "spread").axes[0]
+    assert above.get_yscale() == "log"
+    assert 0.0 < above.get_ylim()[0] < np.exp(-19)
 
 
 def test_a_figure_that_cannot_be_drawn_leaves_no_folder(tmp_path):
@@ -317,6 +331,8 @@ def test_what_is_missing_is_said_in_a_sentence():
         assert f'add "{output}" to run.outputs' in found[name]
         with pytest.raises(BadInput, match=f'{name}: no .* "{output}"'):
             figures.draw(dataset, name)
+    with pytest.raises(BadInput, match="or no frames"):
+        figures.available(dataset.isel(frame=slice(0, 0)))
 
 
 @pytest.mark.parametrize("output", ["contact", "omega", "energy", "attitude", "integrals"])
@@ -470,6 +486,13 @@ def test_names_and_units_are_text_whatever_is_in_them(name, tmp_path):
     swept = results.sweep(5).rename({"start.momentum": name})
     swept[name].attrs["units"] = name
     figures.save_all(swept, tmp_path)
+
+
+def test_a_long_name_is_cut_in_a_figure():
+    name = "long " * 15
+    dataset = results.folded().assign_coords(ball=[name, "b"])
+    (shown, *_) = figures.draw(dataset, "contact").legends[0].get_texts()
+    assert shown.get_text() == name[:35] + "…"
 
 
 @pytest.mark.filterwarnings("error", "ignore::DeprecationWarning")

@@ -56,6 +56,9 @@ def test_each_picture_shows_the_ball_and_its_place_at_its_time():
             light = picture[row, column, 2] / (0.92 * (0.72 + 0.28 * depth))
             assert (light > 0.8) == (body.prod() > 0)
     assert drawn.clock.get_text() == f"{drawn.t[-1]:.2f} s"
+    short = scene(dataset.assign_coords(time=dataset["time"] * 1e-6))
+    short.show(len(short.t) - 1)
+    assert short.clock.get_text() == f"{1e9 * short.t[-1]:.2f} 10⁻⁹ s"
 
 
 def test_what_turns_too_fast_for_all_pictures_is_a_part_and_says_so():

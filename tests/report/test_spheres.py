@@ -33,6 +33,17 @@ def test_the_curve_of_a_vertical_momentum_is_that_of_its_orbit(axes):
         assert curve_through(Ball(J, D), orbit, D) is None or nearest(orbit, curve_through(Ball(J, D), orbit, D)) > 0.05
 
 
+def test_the_forbidden_region_is_the_same_in_all_units():
+    """Squares of the energies of this ball, for momenta of length 1, are beyond float64."""
+    dataset, size = results.uneven(200), 1e-200
+    other = dataset.assign(mass_tensor=size * dataset["mass_tensor"], D=size * dataset["D"])
+    grey, again = (
+        [axis.images[0].get_array() for axis in figures.draw(one, "spheres").axes] for one in (dataset, other)
+    )
+    assert all(image[..., 3].any() for image in grey)
+    assert all((image != same).any(axis=-1).mean() < 1e-3 for image, same in zip(grey, again, strict=True))
+
+
 def test_no_curve_is_drawn_that_is_not_the_orbits():
     orbit = results.vertical(100)["gamma"].values[0]
     assert curve_through(Ball(J[[1, 0, 2]], D), orbit, D) is None

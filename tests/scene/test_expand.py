@@ -227,7 +227,7 @@ def test_unit_vectors_typed_with_few_digits_are_divided_and_those_that_vary_too(
         ({}, {"gamma": [0, 0, {"grid": [1, 0]}]}, "ball 2 (start.gamma.3 = 0): start.gamma must not be 0"),
         ({}, {"attitude": [1, 1, 0, 0]}, "ball: attitude must be a unit quaternion (scalar first), but its length is"),
         ({}, {"position": [0, 0, 0]}, "ball: start.position must have 2 numbers"),
-        ({}, {"omega": [1e-310, 0, 0.0]}, "ball: 𝒦 = εK is below the range of float64"),
+        ({}, {"omega": [1e-310, 0, 0.0]}, "ball: K = Λω - D⟨ω,γ⟩γ is below the range of float64"),
         ({"mass_tensor": [1e5] * 3}, {"omega": [0, 1e308, 0]}, "ball: K = Λω - D⟨ω,γ⟩γ is beyond the range of float64"),
         ({}, {"omega": [[0, 1, 0, 0]] * 4}, "ball: start.omega must be three numbers"),
         ({"mass_tensor": [1, 2, 3, 4]}, {}, "ball: start.omega must be skew matrices of the shape (..., 4, 4)"),

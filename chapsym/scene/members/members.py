@@ -13,7 +13,6 @@ import numpy as np
 from chapsym.dynamics import BadInput, Ball, BallN, kernels
 from chapsym.dynamics.attitudes import attitude_with, roll_pitch_yaw
 from chapsym.dynamics.ball import (
-    SMALLEST,
     UNIT_TOLERANCE,
     Floats,
     contact_term,
@@ -279,11 +278,11 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
             attitude = attitude_to_principal(axes, attitude_with(gamma) if attitude is None else attitude)
             gamma, motion = (to_principal(axes, vector) for vector in (gamma, motion))
         gamma = unit_vertical(gamma)
-        momentum = motion if of_momentum else _momentum_of(motion, gamma, body, scale)
+        momentum = motion if of_momentum else scale * kernels.momentum_in_range(body, motion, gamma, scale)
         if start.vertical_momentum is not None:
             momentum = given.array(start.vertical_momentum, "start.vertical_momentum")[:, np.newaxis] * gamma
         if not np.isfinite(momentum).all():
-            raise BadInput("K = Λω - D⟨ω,γ⟩γ is beyond the range of float64, about 1.8e308; take other units")
+            raise BadInput("𝒦 is beyond the range of float64, about 1.8e308; take other units")
         return Members(names, body, momentum, gamma, axes, attitude, _position(start, given, 2))
 
 
@@ -380,15 +379,6 @@ def _rolling(start: StartTable, given: Given, ball: Ball) -> Floats:
     velocity = given.array(start.velocity, "start.velocity")
     spin = given.array(0.0 if start.spin is None else start.spin, "start.spin")
     return np.stack([-velocity[..., 1] / ball.radius, velocity[..., 0] / ball.radius, spin], axis=-1)
-
-
-def _momentum_of(omega: Floats, gamma: Floats, ball: Ball, scale: float) -> Floats:
-    """𝒦 = εK with K = Λω - D⟨ω,γ⟩γ; raises BadInput if float64 loses its digits."""
-    momentum = scale * kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
-    lost = (np.abs(momentum).max(axis=-1) < SMALLEST) & omega.any(axis=-1) & (ball.inertia > 0).all(axis=-1)
-    if lost.any():
-        raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
-    return momentum
 
 
 def _members_n(ball: BallTable, start: StartTable, given: Given, scale: float, names: tuple[str, ...]) -> Members:

@@ -13,6 +13,8 @@ from chapsym.scene.result.interpolation import per_ball as per_ball
 if TYPE_CHECKING:
     from xarray import Dataset
 
+#: The letters of a name in a figure.
+LETTERS = 36
 #: Digits and signs as exponents.
 RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
@@ -22,8 +24,8 @@ def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
 
     ball: a name, or an index.  Raises BadInput for an unknown ball, and for a result without frames.
     """
-    if "frame" not in dataset.dims and "rotation_number" not in dataset:
-        raise BadInput('this is no result of chapsym: it has no dimension "frame"')
+    if not dataset.sizes.get("frame") and "rotation_number" not in dataset:
+        raise BadInput('this is no result of chapsym: it has no dimension "frame", or no frames')
     if "ball" not in dataset.dims:
         dataset = dataset.expand_dims("ball")
     return dataset if ball is None else dataset.isel(ball=[index_of(dataset, ball)])
@@ -70,8 +72,8 @@ def literal(text: str) -> str:
 
 
 def labels(dataset: "Dataset") -> list[str]:
-    """The names of the balls for a figure."""
-    return [literal(name) for name in ball_names(dataset)]
+    """The names of the balls for a figure, which is as wide as `LETTERS` of the widest letters."""
+    return [literal(name if len(name) <= LETTERS else f"{name[: LETTERS - 1]}…") for name in ball_names(dataset)]
 
 
 def ball_names(dataset: "Dataset") -> list[str]:

@@ -23,6 +23,8 @@ MOMENTS = (0.25, 0.5, 0.75, 1.0)
 SHARES = (50, 90)
 #: Traces within this fraction of their length of their chord are shown again, enlarged across it.
 STRAIGHT = 0.08
+#: The least side of a cell, relative to the largest coordinate.
+ROUNDED = 1e-12
 
 
 def draw(dataset: Dataset) -> Picture:
@@ -147,7 +149,7 @@ def _density(axis: Axes, trace: Floats) -> None:
     going = np.asarray(np.isfinite(trace).all(axis=-1))
     flat = trace[going]
     low, high = flat.min(axis=0), flat.max(axis=0)
-    size = float((high - low).max()) / CELLS or 1.0
+    size = max(float((high - low).max()) / CELLS, ROUNDED * float(np.abs(flat).max())) or 1.0
     cells = np.maximum(np.ceil((high - low) / size).astype(int), 1)  # square cells
     sides = np.stack([low, low + cells * size], axis=-1)
     count, _, _ = np.histogram2d(flat[:, 0], flat[:, 1], bins=cells.tolist(), range=sides)

@@ -243,7 +243,9 @@ def _spread(axis: Axes, t: Floats, far: Floats, colour: str, caption: str, unit:
     series.fan(axis, t, far / factor, colour, "median", SPREAD)
     if logarithmic:
         axis.set_yscale("log", nonpositive="mask")
-        axis.set_ylim(bottom=0.5 * float(np.nanmin(low[1:][low[1:] > ROUNDOFF * np.nanmax(far)])))
+        seen = np.concatenate([low[1:], half[1:]])
+        seen = seen[seen > ROUNDOFF * np.nanmax(far)]
+        axis.set_ylim(bottom=0.5 * float(np.nanmin(seen, initial=going[-1])))
     else:
         axis.set_ylim(bottom=0.0)
     axis.set_ylabel(in_power(caption, unit, text))

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from xarray import Dataset
 
 from chapsym.dynamics import Ball, kernels
-from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.ball import Floats, checked_before, largest_moment
 
 from ..drawing import reading, series
 from ..drawing.invariant import bodies_of, curve_through, energy_range, is_vertical, unit
@@ -99,10 +99,12 @@ def _forbidden(axis: Axes, view: View, body: Ball, found: dict[str, Floats], of_
     """Shades the region that |𝒦|, ⟨𝒦,γ⟩ and the energies of this run exclude."""
     there = np.isfinite(found["gamma"]).all(axis=-1)
     m, gamma = unit(body.to_principal(found["momentum"][there])), body.to_principal(found["gamma"][there])
-    energies = kernels.energy(m, gamma, body.mass_tensor, body.D)
+    size = largest_moment(body.mass_tensor, body.D) or 1.0
+    own = checked_before(body.mass_tensor / size, body.D / size)  # energies are compared with each other only
+    energies = kernels.energy(m, gamma, own.mass_tensor, own.D)
     low, high = float(energies.min()), float(energies.max())
     inside, seen = view.disc(PIXELS)
-    least, largest = energy_range(body, body.to_principal(seen), float(np.median((m * gamma).sum(-1))), of_gamma)
+    least, largest = energy_range(own, body.to_principal(seen), float(np.median((m * gamma).sum(-1))), of_gamma)
     image = np.zeros((PIXELS, PIXELS, 4))
     # The least and largest energies have the error of a parabola through samples: 1.6e-4 of the range was measured.
     slack = 1e-3 * (float(np.max(largest)) - float(np.min(least)))

@@ -133,7 +133,11 @@ def _ball(ball: Rolling) -> files.Data:
 
 
 def _base64(array: np.ndarray, kind: str) -> str:
-    return base64.b64encode(np.ascontiguousarray(array, dtype=kind).tobytes()).decode("ascii")
+    with np.errstate(over="ignore", under="ignore"):
+        found = np.ascontiguousarray(array, dtype=kind)
+    if np.isinf(found).any():
+        raise BadInput("the page has no numbers beyond 3.4e38, those of float32; take other units")
+    return base64.b64encode(found.tobytes()).decode("ascii")
 
 
 def _module(file: str) -> str:
