@@ -13,6 +13,8 @@ from typing import Any
 
 #: Ignores the warning of Python's tracker, which removes the semaphores of a killed process; an option -W.
 TRACKER = "ignore:resource_tracker:UserWarning"
+#: The reason of a broken pool whose pipe to a process, a worker or Python's tracker, is closed: no closed output.
+CANNOT_BEGIN = "a worker process cannot begin"
 #: Seconds to wait for workers that were ended; in a compiled loop they may be longer.
 LONG = 2.0
 
@@ -32,6 +34,8 @@ class Processes(ProcessPoolExecutor):
             # The pool starts this thread later, and would wait for ever for its calls if the system refuses it.
             if start := getattr(self._call_queue, "_start_thread", None):  # type: ignore[attr-defined]
                 start()
+        except BrokenPipeError:
+            raise BrokenProcessPool(CANNOT_BEGIN) from None
         finally:
             sys.warnoptions.remove(TRACKER)
 
@@ -40,9 +44,14 @@ class Processes(ProcessPoolExecutor):
         with _deaf():
             try:
                 return super().submit(_called, *call, **named)
-            except (RuntimeError, OSError):  # too few threads or processes: those that begin would find nothing
+            except (
+                RuntimeError,
+                OSError,
+            ) as error:  # too few threads or processes: those that begin would find nothing
                 for process in (self._processes or {}).values():
                     process.kill()
+                if isinstance(error, BrokenPipeError):
+                    raise BrokenProcessPool(CANNOT_BEGIN) from None
                 raise
 
     def __exit__(self, *error: object) -> None:

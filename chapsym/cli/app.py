@@ -145,7 +145,7 @@ def _unraisable(what: "sys.UnraisableHookArgs") -> None:
     """Raises an interrupt anew that came where Python only writes an exception down, as at the end of an import."""
     if what.exc_type is KeyboardInterrupt:
         threading.Timer(0.01, _thread.interrupt_main).start()  # when this has ended
-    else:
+    elif what.exc_type is not BrokenPipeError:  # of a message to a process that has ended
         sys.__unraisablehook__(what)
 
 

@@ -1,7 +1,8 @@
 """Chains of calls: in order, abreast, tried again where a worker is lost, and ended by what they let through."""
 
+import errno
 import os
-from concurrent.futures import Future
+from concurrent.futures import Future, ProcessPoolExecutor
 
 import pytest
 
@@ -140,6 +141,18 @@ def test_a_process_that_is_killed_ends_the_run_in_a_sentence():
 
     with pytest.raises(BadInput, match="a process of this run was ended"), jobs.processes(2) as crew:
         jobs.run([one()], crew)
+
+
+@pytest.mark.parametrize("method", ["__init__", "submit"])
+def test_processes_that_cannot_begin_are_no_closed_output(monkeypatch, method):
+    """Python writes to a process that ends at once, as where a user may not read the interpreter of the environment."""
+
+    def refused(*arguments, **named):
+        raise BrokenPipeError(errno.EPIPE, "Broken pipe")
+
+    monkeypatch.setattr(ProcessPoolExecutor, method, refused)
+    with pytest.raises(BadInput, match="a process of this run was ended"), jobs.processes(2) as crew:
+        jobs.run([chain("a", {})], crew)
 
 
 def test_a_time_is_read_in_the_largest_unit_of_which_there_is_one():
