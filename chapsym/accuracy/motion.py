@@ -644,6 +644,7 @@ def _run(
     return worst, noise, started
 
 
+@np.errstate(over="ignore")
 def steps_of(columns: int, angle: Any, unit: Any, accuracy: float) -> Any:
     """The long steps in double-double by the law: with `LESS` columns fewer, `MARGIN` of the accuracy is reached."""
     fewer = columns - LESS

@@ -203,6 +203,7 @@ def test_exact_momenta_reach_the_higher_precisions_and_distance_sees_what_float6
     np.testing.assert_allclose(distance(request, run, moved), np.sqrt(3) * 1e-25, rtol=1e-6)
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
@@ -223,6 +224,7 @@ def test_exact_momenta_reach_the_higher_precisions_and_distance_sees_what_float6
         ({"time": 1e-15, "K": 1e-300 * K}, "εK is below 1e-271"),
         ({"time": 1e-15, "K": 1e-300 * K, "of": "state"}, "εK is below 1e-271"),
         ({"K": 1e160 * K}, "it takes too many steps"),
+        ({"time": 1e300}, "it takes too many steps"),
         ({"K": (1e308, 1e308, 0)}, "the ball turns too fast for float64"),
     ],
 )
