@@ -18,7 +18,8 @@ let speed = motion.unit === 's' && length > 3 && length < 90 ? 0 : Math.round(Ma
 
 // --- what is told ---
 
-const digits = (x, least) => x.toFixed(Math.max(0, Math.min(12, -Math.floor(Math.log10(least)))));
+const digits = (x, least) => least < 1e-12 || least > 1e6 ? x.toExponential(2)
+  : x.toFixed(Math.max(0, -Math.floor(Math.log10(least))));
 const significant = (x) => Number(x.toPrecision(4)).toString().replace('-', '−');
 const reading = (t) => motion.unit === 's' ? `${digits(t, length / 1000 || 1)} s` : `step ${Math.round(t)}`;
 

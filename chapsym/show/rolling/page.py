@@ -135,8 +135,8 @@ def _ball(ball: Rolling) -> files.Data:
 def _base64(array: np.ndarray, kind: str) -> str:
     with np.errstate(over="ignore", under="ignore"):
         found = np.ascontiguousarray(array, dtype=kind)
-    if np.isinf(found).any():
-        raise BadInput("the page has no numbers beyond 3.4e38, those of float32; take other units")
+    if np.isinf(found).any() or (array.any() and not found.any()):
+        raise BadInput("the page has the numbers of float32, from 1e-45 to 3.4e38; take other units")
     return base64.b64encode(found.tobytes()).decode("ascii")
 
 
