@@ -355,6 +355,18 @@ def test_a_figure_and_a_ball_are_chosen_by_name_or_index():
     assert figures.draw(dataset.isel(ball=0), "contact").axes
 
 
+def test_all_integrals_of_many_dimensions_are_drawn():
+    beginning = {
+        "momentum": (np.triu(np.full((11, 11), 0.01), 1) - np.tril(np.full((11, 11), 0.01), -1)).tolist(),
+        "gamma": [0] * 10 + [1],
+    }
+    scene = {"ball": {"mass_tensor": list(range(1, 12)), "D": 3}, "start": beginning}
+    run = chapsym.run_scene(scene | {"run": {"steps": 2, "outputs": ["integrals"]}})
+    drawn = [line.get_label() for line in lines(figures.draw(run.dataset, "integrals").axes[0])]
+    assert len(drawn) == run.dataset.sizes["integral"] == 11
+    assert drawn[4].startswith(r"$\mathrm{tr}\,\mathcal{K}^{10}$: ")
+
+
 def test_integrals_that_are_variables_of_their_own_are_drawn_as_those_in_one():
     dataset = results.uneven(200)
     apart = dataset.drop_vars("integrals")

@@ -1,6 +1,7 @@
 """Values over time: the angular velocity, the attitude, the energy, the integrals, and the spread of balls."""
 
 import re
+from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -169,7 +170,7 @@ def _symbol(name: str) -> str:
         return reading.literal(name)
     for text, symbol in (("gamma", r"\gamma"), ("K", r"\mathcal{K}"), ("tr ", r"\mathrm{tr}\,"), (".", " ")):
         name = name.replace(text, symbol)
-    return f"${name}$"
+    return "$" + re.sub(r"(\d+)", r"{\1}", name) + "$"
 
 
 def drifts(found: Floats, names: list[str]) -> list[Floats]:
@@ -200,7 +201,7 @@ def _changes(dataset: Dataset, changes: dict[str, Floats], title: str, height: f
     sizes = [reading.size_of(change) for change in changes.values()]
     largest, least = max(sizes, default=0.0), ULPS * ULP / 2
     factor, text = power(max(largest, least))
-    for colour, (name, change), size in zip(COLOURS, changes.items(), sizes, strict=False):
+    for colour, (name, change), size in zip(cycle(COLOURS), changes.items(), sizes, strict=False):
         caption = f"{name}: " + (f"{size:.1e}".replace("e-0", "e-") if size else "0")
         if len(change) == 1:
             series.line(axis, t, change[0] / factor, colour, caption, points=points)
