@@ -273,6 +273,10 @@ def test_what_a_result_cannot_say_is_refused(said):
         REFUSED[said]()
 
 
+def test_omega_is_known_where_the_energy_is_beyond_float64():
+    assert np.isfinite(run(time_step=1e-200).omega).all()
+
+
 @pytest.mark.filterwarnings("error")
 def test_no_balls_have_a_table():
     empty = chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2, time_step=0.1)

@@ -497,7 +497,7 @@ class Trajectory:
     def omega(self) -> Floats:
         """ω in rad/s for K = 𝒦/ε, in body axes, (..., frames, 3); raises BadInput if the run has no time step."""
         self._check_finite()
-        return self.derived()["omega"]
+        return self.derived("omega")["omega"]
 
     @property
     def energy(self) -> Floats:
@@ -507,10 +507,10 @@ class Trajectory:
     def kinetic_energy(self) -> Floats:
         """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
         self._check_finite()
-        return self.derived()["energy"]
+        return self.derived("energy")["energy"]
 
-    def derived(self) -> dict[str, Floats]:
-        """`omega` and `energy`, NaN after a ball of a batch stopped; raises BadInput if the run has no time step."""
+    def derived(self, *names: str) -> dict[str, Floats]:
+        """`omega`, `energy` or both, NaN after a ball of a batch stopped; raises BadInput if there is no time step."""
         with self.precision.working():
             ball, missing = self.ball, self.index > self.taken[..., np.newaxis]
             K = np.where(missing[..., np.newaxis], 0.0, self.angular_momentum())
@@ -521,7 +521,9 @@ class Trajectory:
             omega, energy = kernels.angular_velocity(*frames), np.array(kernels.kinetic_energy(*frames))
             omega = omega if ball.axes is None else ball.from_principal(omega, frames=True)
             omega[missing] = energy[missing] = np.nan
-            return {name: self._in_range(name, x) for name, x in (("omega", omega), ("energy", energy))}
+            return {
+                name: self._in_range(name, x) for name, x in (("omega", omega), ("energy", energy)) if name in names
+            }
 
     def _in_range(self, name: str, values: Floats) -> Floats:
         """The values; raises BadInput if those of a frame that was reached are beyond the range of floats."""

@@ -42,7 +42,7 @@ def missing(dataset: "Dataset") -> str | None:
         return 'no attitude: add "attitude" to run.outputs, and "contact" to see the way'
     if "quaternion" not in dataset["attitude"].dims:
         return "a rolling ball is drawn in three dimensions only"
-    return None if dataset.sizes["frame"] > 1 else "a motion needs two frames"
+    return None if reading.last_frames(dataset).max() > 0 else "a motion needs two frames"
 
 
 def check_writer(form: str) -> None:

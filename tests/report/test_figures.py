@@ -181,6 +181,13 @@ def test_the_components_of_one_ball_share_a_panel_and_those_of_several_have_thei
         assert len(panel.collections) == 3
 
 
+def test_bands_say_how_many_balls_stopped_early():
+    dataset = results.batch(20, 40, 1)
+    assert "stopped" not in figures.draw(dataset, "omega").get_supxlabel()
+    dataset["taken"][:3], dataset["status"][:3] = 10, chapsym.Status.FOLDED
+    assert "without the 3 of 20 balls that stopped early" in figures.draw(dataset, "omega").get_supxlabel()
+
+
 def test_the_slip_is_drawn_in_metres_per_second():
     slip = 3e-3 * np.sin(np.arange(21.0))
     (axis,) = figures.draw(results.bowling(20).assign(slip=(("ball", "frame"), slip[np.newaxis])), "slip").axes

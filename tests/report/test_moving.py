@@ -61,6 +61,12 @@ def test_each_picture_shows_the_ball_and_its_place_at_its_time():
     assert short.clock.get_text() == f"{1e9 * short.t[-1]:.2f} 10⁻⁹ s"
 
 
+def test_a_ball_that_stops_at_once_has_no_motion(tmp_path):
+    dataset = results.bowling(20)
+    with pytest.raises(BadInput, match="a motion needs two frames"):
+        moving.save_motion(dataset.assign(taken=0 * dataset["taken"]), tmp_path / "a.gif")
+
+
 def test_what_turns_too_fast_for_all_pictures_is_a_part_and_says_so():
     whole, part, far = (
         scene(data)

@@ -83,6 +83,8 @@ def _components(dataset: Dataset, array: Floats, names: list[str], symbol: str, 
         legend(figure, axes)
     else:
         add_note(figure, "median of the balls; bands: 50 %, 90 %, all")
+        if count := int(reading.stopped(dataset).sum()):
+            add_note(figure, f"without the {count} of {len(array)} balls that stopped early, after they stopped")
     return figure
 
 
@@ -243,7 +245,7 @@ def _spread(axis: Axes, t: Floats, far: Floats, colour: str, caption: str, unit:
     factor, text = (1.0, "") if logarithmic else power(float(np.nanmax(far, initial=0.0)))
     series.fan(axis, t, far / factor, colour, "median", SPREAD)
     if logarithmic:
-        axis.set_yscale("log", nonpositive="mask")
+        axis.set_yscale("log")
         seen = np.concatenate([low[1:], half[1:]])
         seen = seen[seen > ROUNDOFF * np.nanmax(far)]
         axis.set_ylim(bottom=0.5 * float(np.nanmin(seen, initial=going[-1])))
