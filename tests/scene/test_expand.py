@@ -27,9 +27,8 @@ def rolled(found, steps=2000, **options):
     """The trajectory of the first ball, with its contact point, from its own place."""
     ball = Ball(found.ball.mass_tensor[0], found.ball.D[0], found.ball.radius[0])
     attitude = True if found.attitude is None else found.attitude[0]
-    return trajectory(
-        ball, found.momentum[0], found.gamma[0], steps, attitude=attitude, contact=True, time_step=0.001, **options
-    )
+    start = ball, found.momentum[0], found.gamma[0]
+    return trajectory(*start, steps, attitude=attitude, contact=True, time_step=0.001, **options)
 
 
 def matrix(q):

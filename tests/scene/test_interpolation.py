@@ -13,9 +13,8 @@ TIMES = np.linspace(0.0, 1.0, 7)
 
 
 def run():
-    return chapsym.roll(
-        results.UNEVEN, (3.0, -2.0, 1.0), 0.01, 100, every=10, gamma=(2 / 7, 3 / 7, 6 / 7), contact=True
-    )
+    gamma = 2 / 7, 3 / 7, 6 / 7
+    return chapsym.roll(results.UNEVEN, (3.0, -2.0, 1.0), 0.01, 100, every=10, gamma=gamma, contact=True)
 
 
 def test_a_result_between_its_frames_is_its_trajectory_between_them():
@@ -52,10 +51,8 @@ def test_given_axes_stay_those_of_the_result():
     for name in ("momentum", "gamma", "omega"):
         turned[name] = plain[name].dims, kernels.rotate(AXES, plain[name].values)
     back = AXES * [1.0, -1.0, -1.0, -1.0]
-    turned["attitude"] = (
-        plain["attitude"].dims,
-        kernels.compose(plain["attitude"].values, np.broadcast_to(back, (11, 4))),
-    )
+    attitude = kernels.compose(plain["attitude"].values, np.broadcast_to(back, (11, 4)))
+    turned["attitude"] = plain["attitude"].dims, attitude
     turned["axes"] = ("ball", "quaternion"), AXES[np.newaxis]
     found, true = chapsym.interpolated(turned, TIMES), chapsym.interpolated(plain, TIMES)
     assert found["omega"].values == pytest.approx(kernels.rotate(AXES, true["omega"].values), abs=1e-14)

@@ -122,9 +122,8 @@ def test_the_discrete_top_is_the_map(tops):
     plan = planned(tops, Task(("momentum", "gamma", "attitude"), steps, 9_999))
     assert plan.model.name == Top.name
     direct, end = rolled(plan, [slice(0, 3), slice(3, plan.frames)])
-    exact = chapsym.trajectory(
-        tops.ball, tops.momentum, tops.gamma, steps, every=9_999, attitude=True, precision="double-double"
-    )
+    start = tops.ball, tops.momentum, tops.gamma
+    exact = chapsym.trajectory(*start, steps, every=9_999, attitude=True, precision="double-double")
     assert (end["taken"] == exact.taken).all()
     sign = np.sign((direct["attitude"] * exact.attitude).sum(axis=-1, keepdims=True))  # both are the same attitude
     direct["attitude"] *= sign

@@ -25,10 +25,8 @@ from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
 
 #: Three units of work.
-LONG = (
-    BALL.replace("[3.0,", "[{ linspace = [3.0, 4.0, 9_000] },")
-    + "time_step = 0.01\nsteps = 120\nevery = 20\nmap = true\n"
-)
+RUN = "time_step = 0.01\nsteps = 120\nevery = 20\nmap = true\n"
+LONG = BALL.replace("[3.0,", "[{ linspace = [3.0, 4.0, 9_000] },") + RUN
 
 
 @contextmanager

@@ -361,8 +361,7 @@ def test_a_robots_file_runs_with_a_start(text, put, tmp_path):
 
 
 def test_a_start_of_a_robots_file_is_whole_and_a_scene_has_its_own(put):
-    assert "start.omega.3 is missing" in refused("run", put(URDF), "--omega", "3,-2", "--time", "1", "-o", "x.csv")
-    assert "run.time must be greater than 0" in refused(
-        "run", put(URDF), "--omega", "3,-2,1", "--time", "0", "-o", "x.csv"
-    )
+    start = "run", put(URDF), "-o", "x.csv", "--omega"
+    assert "start.omega.3 is missing" in refused(*start, "3,-2", "--time", "1")
+    assert "run.time must be greater than 0" in refused(*start, "3,-2,1", "--time", "0")
     assert "has a start and a time of its own" in refused("run", "docs/first.toml", "--time", "1", "-o", "x.csv")

@@ -24,6 +24,7 @@ from small_units import BALLS, EVERY, OUTPUTS, PART, STEPS, UNITS, equal_to_the_
 from waiting import GUARD, until
 
 from chapsym.dynamics import BadInput, Status
+from chapsym.dynamics.labelled import NOT_RUN
 from chapsym.generated import TABLE
 from chapsym.scene import SceneError
 from chapsym.scene.plan import plan as plans
@@ -615,7 +616,7 @@ def test_the_motion_goes_on_too_and_has_the_same_bits(path, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         sweep.run_to_store(found, path, report=end)
     half = opened(path)
-    assert 4 <= (half["order"].values != dataset.NOT_RUN).sum() < 10
+    assert 4 <= (half["order"].values != NOT_RUN).sum() < 10
     assert 0 < far(half)["motion"]["error"] <= 1e-6
     sweep.run_to_store(found, path)
     equal_to_the_bit(opened(path), alone)

@@ -1,7 +1,7 @@
 """The motion of a scene with a single ball, from its numbers as written, not as floats: for certified digits."""
 
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -10,19 +10,8 @@ import numpy as np
 
 from chapsym.dynamics.attitudes import roll_pitch_yaw
 from chapsym.dynamics.enclosed_motion import decimal
-from chapsym.dynamics.flow.start import (
-    NO_ROTOR,
-    Balls,
-    Principal,
-    Start,
-    Turns,
-    ball,
-    balls,
-    principal,
-    principal_exactly,
-    turning,
-    upright,
-)
+from chapsym.dynamics.flow import start as starts
+from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Principal, Start, Turns, ball, balls, turning, upright
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.map import check_body
 from chapsym.rationals import mass_tensor_from
@@ -76,9 +65,8 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     if len(expand(without_rotors(scene))) != 1:
         raise SceneError(f"{name}: certified digits are of one ball; this scene has several, or a range")
     if scene.maps:
-        raise SceneError(
-            f"{name} is of the map; certify motion is of the continuous ball: give start.omega, or start.velocity"
-        )
+        clause = "is of the map; certify motion is of the continuous ball: give start.omega, or start.velocity"
+        raise SceneError(f"{name} {clause}")
     data = tomllib.loads(scene.toml, parse_float=lambda text: text.replace("_", ""))
     table = data["ball"][0] if isinstance(data["ball"], list) else data["ball"]
     beginning = table.get("start") or data["start"]
@@ -88,17 +76,21 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     radius = _rational(table, "radius") if "radius" in table else None
     attitude = _attitude(beginning)
     rotor = _numbers(table, "rotor") if "rotor" in table else NO_ROTOR
+    spin = _number(beginning.get("spin", 0), RATE)
     if "velocity" in beginning:
         assert radius is not None
-        momentum = _rolling(beginning, D, radius, rotor)
+        first, second = (x.rational for x in _numbers(beginning, "velocity"))
+        momentum = turning((-second / radius, first / radius, spin), D, True, rotor)  # ω = (-v₂/ρ, v₁/ρ, spin) in space
     else:
         momentum = turning(_numbers(beginning, "omega"), D, beginning.get("axes") == "space", rotor)
     first, second = (x.rational for x in _numbers({"position": (0, 0)} | beginning, "position"))
     moving = _numbers(beginning, "velocity" if "velocity" in beginning else "omega")
-    if any(map(any, rotor)) and not any(map(any, (*moving, _number(beginning.get("spin", 0), RATE)))):
+    if any(map(any, rotor)) and not any(map(any, (*moving, spin))):
         raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
     start = Start(moments, D, attitude, momentum, radius, (first, second), rotor, axes)
-    return start, _times(scene, data["run"])
+    run, (steps, every) = data["run"], scene.run.counts()
+    whole = _rational(run, "time_step") * every if "time_step" in run else _rational(run, "time") / steps
+    return start, tuple(i * whole for i in range(steps // every + 1))
 
 
 def _numbers(table: Data, key: str) -> tuple[Turns, ...]:
@@ -131,7 +123,7 @@ def _body(table: Data) -> tuple[tuple[Fraction, ...], Fraction, Axes | None]:
         whole = [[half * (i == j) - (matrix[i][j] + matrix[j][i]) / 2 for j in range(3)] for i in range(3)]
         if not any(whole[i][j] for i in range(3) for j in range(i)):
             return tuple(whole[i][i] for i in range(3)), D, None
-        return (), D, lambda: principal_exactly(whole)
+        return (), D, lambda: starts.principal_exactly(whole)
     preset, keys = PRESETS[table["preset"]], ("mass", "radius", *keys_of(table["preset"]))
     given: Data = {key: _exactly(table, key) for key in keys if key in table}
     if "block_offset" not in given:
@@ -140,7 +132,7 @@ def _body(table: Data) -> tuple[tuple[Fraction, ...], Fraction, Axes | None]:
     def axes() -> Principal:
         """With a root in it: the distance of the block."""
         inside = {key: np.vectorize(ball, otypes=[object])(x[np.newaxis]) for key, x in given.items()}  # a batch of one
-        return principal(preset(**inside)[0].tolist())
+        return starts.principal(preset(**inside)[0].tolist())
 
     return (), D, axes
 
@@ -161,17 +153,3 @@ def _attitude(start: Data) -> Callable[[], Balls]:
             given = _numbers(start, key)
             return partial(balls, [given[i].rational for i in order])
     return upright(_numbers(start, "gamma") if "gamma" in start else (Fraction(0), Fraction(0), Fraction(1)))
-
-
-def _rolling(start: Data, D: Fraction, radius: Fraction, rotor: Sequence[Turns]) -> Callable[[Balls, Principal], Balls]:
-    """K of a ball that rolls with a velocity and a spin: ω in space is (-v₂/ρ, v₁/ρ, spin)."""
-    first, second = (x.rational for x in _numbers(start, "velocity"))
-    spin = _number(start.get("spin", 0), RATE)
-    return turning((-second / radius, first / radius, spin), D, True, rotor)
-
-
-def _times(scene: Scene, run: Data) -> tuple[Fraction, ...]:
-    """The times of the frames, including the start."""
-    steps, every = scene.run.counts()
-    whole = _rational(run, "time_step") * every if "time_step" in run else _rational(run, "time") / steps
-    return tuple(i * whole for i in range(steps // every + 1))

@@ -11,16 +11,9 @@ from typing import Any, Self
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, BallN, kernels
+from chapsym.dynamics import ball as balls
 from chapsym.dynamics.attitudes import attitude_with, roll_pitch_yaw
-from chapsym.dynamics.ball import (
-    UNIT_TOLERANCE,
-    Floats,
-    contact_term,
-    mass_tensor_of,
-    numbers,
-    rounded_by,
-    unit_vertical,
-)
+from chapsym.dynamics.ball import UNIT_TOLERANCE, Floats, contact_term, mass_tensor_of, numbers, unit_vertical
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.ball_n import skew_matrices
 from chapsym.dynamics.principal_axes import attitude_to_principal, from_inertia_tensor, inverse, principal, to_principal
@@ -298,7 +291,7 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
             tensor = PRESETS[table.preset](**sizes)
         else:
             inertia = given.array(table.inertia, "ball.inertia")
-            least = rounded_by(table.inertia)
+            least = balls.rounded_by(table.inertia)
             rounded = least + size_rounded_by(table.mass, table.radius) * float(np.max(contact))
             tensor = mass_tensor_of(inertia, least) if inertia.ndim == 2 else from_inertia_tensor(inertia)
         if tensor.ndim == 3:
@@ -353,13 +346,10 @@ def _attitude(start: StartTable, given: Given) -> Floats | None:
     if start.rpy is not None:
         angles = given.array(start.rpy, "start.rpy").T
         if (np.abs(angles) > 2 * np.pi).any():
-            most = angles.flat[int(np.abs(angles).argmax())]
-            raise BadInput(
-                f'start.rpy is in radians, and {most:g} is more than a turn; of degrees write "{most:g} deg"'
-            )
+            far = angles.flat[int(np.abs(angles).argmax())]
+            raise BadInput(f'start.rpy is in radians, and {far:g} is more than a turn; of degrees write "{far:g} deg"')
         return np.stack(roll_pitch_yaw(list(zip(np.cos(angles / 2), np.sin(angles / 2), strict=True))), axis=-1)
-    key = next(iter(start.given(*SCALAR_FIRST)), None)
-    if key is None:
+    if (key := next(iter(start.given(*SCALAR_FIRST)), None)) is None:
         return None
     attitude = given.unit(getattr(start, key), f"start.{key}")
     length = np.sqrt((attitude * attitude).sum(axis=-1, keepdims=True))

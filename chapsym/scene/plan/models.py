@@ -540,9 +540,7 @@ class Chosen(Model):
     whole = True
 
     def __init__(
-        self,
-        tell: Callable[[Accurate], object] = lambda answer: None,
-        progress: Callable[[str], None] = lambda text: None,
+        self, tell: Callable[[Accurate], object] = lambda _: None, progress: Callable[[str], None] = lambda _: None
     ) -> None:
         self.tell, self.progress = tell, progress
 

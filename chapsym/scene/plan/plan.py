@@ -129,14 +129,12 @@ def planned(members: Members, task: Task) -> Plan:
     refused: dict[str, str] = {}
     prices: dict[str, float] = {}
     for model in MODELS:
-        reason = model.refuses(members, task, needed)
-        if reason is None:
+        if (reason := model.refuses(members, task, needed)) is None:
             prices[model.name] = model.price(members, task, needed)
         else:
             refused[model.name] = reason
     for chosen in sorted((model for model in MODELS if model.name in prices), key=lambda model: prices[model.name]):
-        reason = chosen.unfit(members, task, needed)
-        if reason is None:
+        if (reason := chosen.unfit(members, task, needed)) is None:
             break
         refused[chosen.name] = reason
         del prices[chosen.name]
@@ -144,19 +142,15 @@ def planned(members: Members, task: Task) -> Plan:
         able = [model.name for model in MODELS if needed <= model.columns] or list(refused)
         clause = "; ".join(f"{name}: {refused[name]}" for name in able)
         raise BadInput(f"no model yields {', '.join(task.outputs)} for these balls: {clause}")
-    dearer = {
-        name: f"it would cost {price / prices[chosen.name]:.1f} times as much"
-        for name, price in prices.items()
-        if name != chosen.name
-    }
+    least = prices.pop(chosen.name)
+    dearer = {name: f"it would cost {price / least:.1f} times as much" for name, price in prices.items()}
     lesser = {model.name: (refused | dearer).get(model.name) for model in MODELS if model.reduction}
     return Plan(members, task, chosen, needed, {name: why for name, why in lesser.items() if why is not None})
 
 
 def _check_outputs(members: Members, task: Task) -> None:
     """Raises BadInput for outputs that these balls cannot have."""
-    unknown = [name for name in task.outputs if name not in OUTPUTS]
-    if unknown:
+    if unknown := [name for name in task.outputs if name not in OUTPUTS]:
         raise BadInput(f"{unknown[0]!r} is no output; choose of {', '.join(OUTPUTS)}")
     of = (task.of,) if task.of in OUTPUTS else ()
     on_plane = [OUTPUTS[name].long_name for name in (*task.outputs, *of) if OUTPUTS[name].radius]
@@ -168,9 +162,8 @@ def _check_outputs(members: Members, task: Task) -> None:
     if task.proved and all(OUTPUTS[name].derive is not None for name in task.outputs):
         raise BadInput("run.proved bounds momentum, gamma, attitude and contact: ask for one in run.outputs")
     if members.axes is not None and task.precision == "double-double":
-        raise BadInput(
-            "31 digits are kept in principal axes only: give the principal moments, and the start in their axes"
-        )
+        clause = "give the principal moments, and the start in their axes"
+        raise BadInput(f"31 digits are kept in principal axes only: {clause}")
     unknown = sorted(name for name in task.outputs if OUTPUTS[name].dims_n is None)
     if members.dimension > 3 and unknown:
         raise BadInput(f"{unknown[0]} is known in three dimensions only")
@@ -252,8 +245,8 @@ def explained(plan: Plan) -> list[tuple[str, str]]:
         ("follows", ", ".join(sorted(plan.needed))),
         ("kernels", ", ".join(plan.kernels()) or "none"),
         ("keeps", f"{', '.join(plan.task.outputs)}: {plan.frames} frames of {len(plan.members)} {of}"),
+        ("cost", _cost(plan)),
     ]
-    rows.append(("cost", _cost(plan)))
     if plan.task.accuracy is None:
         rows.append(("full model", _beside(plan)))
     balls, frames = len(plan.chunks), len(plan.segments)
@@ -285,8 +278,7 @@ def predicted(plan: Plan) -> float:
 def _beside(plan: Plan) -> str:
     """The cost of the full model, if it has the requested outputs."""
     whole = full(plan)
-    unknown = sorted(plan.needed - whole.model.columns)
-    if unknown:
+    if unknown := sorted(plan.needed - whole.model.columns):
         return f"{_cost(whole)}; it does not follow {' and '.join(unknown)}"
     ratios = _ratio(predicted(whole), predicted(plan)), _ratio(whole.bytes, plan.bytes)
     return f"{_cost(whole)}: {ratios[0]} time, {ratios[1]} storage"

@@ -125,10 +125,8 @@ def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats, rounded: flo
         clause = f"{wanted:.3g} kg m² of a homogeneous ball"
         clause = f"1/{wanted / found:.0f} of the {clause}" if found else f"0, not the {clause}"
         lengths = f"{1e3 * np.sqrt(found / m[low].flat[0]):.2g} mm, and its radius is {1e3 * rho[low].flat[0]:.4g} mm"
-        raise BadInput(
-            f"its moments of inertia are {clause}: its radius of gyration is {lengths}; "
-            "did you mean other units? (for such a body give D = mass radius² instead of mass)"
-        )
+        mended = "did you mean other units? (for such a body give D = mass radius² instead of mass)"
+        raise BadInput(f"its moments of inertia are {clause}: its radius of gyration is {lengths}; {mended}")
     outside = trace > most * (1 + ROUNDING) + rounded
     if outside.any():
         raise BadInput(

@@ -13,8 +13,6 @@ from .units import Dimension, number
 
 #: The largest number of balls, checked before any is made.
 MOST_BALLS = 10_000_000
-
-
 Kind = Literal["linspace", "grid", "random", "normal"]
 
 
@@ -119,9 +117,8 @@ class Sweep:
 
     def __post_init__(self) -> None:
         if (balls := prod(self.shape)) > MOST_BALLS:  # may be more than `len` can return
-            raise ValueError(
-                f"the ranges make {float(min(balls, 10**300)):.10g} balls; a sweep has {MOST_BALLS} at most"
-            )
+            made = float(min(balls, 10**300))
+            raise ValueError(f"the ranges make {made:.10g} balls; a sweep has {MOST_BALLS} at most")
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -138,9 +138,7 @@ class _Reader:
         tag = "body" if self.kind == "mjcf" else "link"
         found = [(body, sphere) for body in self.root.iter(tag) if (sphere := self._sphere(body)) is not None]
         if len(found) != 1:
-            names = ", ".join(
-                [*(body.get("name", "without a name") for body, _ in found[:8]), *["…"] * (len(found) > 8)]
-            )
+            names = ", ".join([*(one.get("name", "without a name") for one, _ in found[:8]), *["…"] * (len(found) > 8)])
             clause = f"has {len(found)} with one ({names})" if found else "has none"
             raise SceneError(f"{self.path}: the ball is the <{tag}> with a sphere to roll on, and this file {clause}")
         return found[0]
@@ -215,8 +213,7 @@ class _Reader:
                 raise self._refused(hidden, f"<{tag}> is not read: move its statements about the ball into its <body>")
         shapes = [one for one in body.findall("geom") if self._touches(one)] or body.findall("collision")
         for shape in shapes:
-            other = self._sphere_of(shape, body)
-            if other is not None:
+            if (other := self._sphere_of(shape, body)) is not None:
                 away = sum((a - b) ** 2 for a, b in zip(other[1], centre, strict=True))
                 room = self._number(radius, shape) - self._number(other[0], shape)
                 if room >= 0 and away <= room**2:
@@ -397,10 +394,8 @@ class _Reader:
             else:
                 turn = _turned(self._numbers(where.get("rpy", "0 0 0"), where, 3))
             return self._numbers(where.get("xyz", "0 0 0"), where, 3), turn
-        if where.get("relative_to", "") not in ("", body.get("name")):
-            clause = (
-                f"relative_to = {where.attrib['relative_to']!r} is not read: give the pose in the frame of its link"
-            )
+        if (frame := where.get("relative_to", "")) not in ("", body.get("name")):
+            clause = f"relative_to = {frame!r} is not read: give the pose in the frame of its link"
             raise self._refused(where, f"<pose>: {clause}")
         form = self._one_of(where, "rotation_format", ("euler_rpy", "quat_xyzw"))
         in_degrees = self._one_of(where, "degrees", ("false", "true", "0", "1")) in ("true", "1")
@@ -457,8 +452,7 @@ class _Reader:
         if self.kind == "mjcf":
             texts = self._of_mjcf(inertial)
         else:
-            inertia = self._only(inertial, "inertia")
-            if inertia is None:
+            if (inertia := self._only(inertial, "inertia")) is None:
                 raise self._refused(inertial, "<inertial> has no <inertia>")
             optional = ("ixy", "ixz", "iyz") if self.kind == "sdf" else ()
             absent = {name for name in optional if inertia.find(name) is None}
@@ -470,8 +464,7 @@ class _Reader:
         if not any(turn[1:]):
             return rows
         tensor = [[self._number(text, inertial) for text in row] for row in rows]
-        length = sum(x * x for x in turn)
-        if not length:
+        if not (length := sum(x * x for x in turn)):
             raise self._refused(inertial, "the quaternion of <inertial> is 0")
         rotation = np.array(generated.rotation(*turn), dtype=object).reshape(3, 3) / length
         return [[_text(x) for x in row] for row in rotation @ np.array(tensor, dtype=object) @ rotation.T]

@@ -26,8 +26,6 @@ MOST_BYTES = 10_000_000
 MOST_DOTS = 2000
 #: The defaults of a run of a robot file.
 FRAMES_OF_ROBOT = 1000
-
-
 Balls = Annotated[
     tuple[BallTable, ...],
     Field(min_length=1, description="A ball; or several, each [[ball]]."),
@@ -109,9 +107,8 @@ class Scene(Table):
                 raise Misfit(f"two balls have the name {ball.name!r}", "ball", i, "name")
             drawn |= self._check_ball(i, ball)
         if self.sweep.samples is not None and not drawn:
-            raise Misfit(
-                "sweep.samples needs a range that is drawn, random or normal, and there is none", "sweep", "samples"
-            )
+            clause = "needs a range that is drawn, random or normal, and there is none"
+            raise Misfit(f"sweep.samples {clause}", "sweep", "samples")
         return self
 
     def _check_ball(self, i: int, ball: BallTable) -> bool:
@@ -147,10 +144,8 @@ def load(path: Path, omega: list[str] | None = None, time: str | None = None) ->
     if path.suffix in robots.SUFFIXES:
         ball = robots.table(path)
         if omega is None or time is None:
-            raise SceneError(
-                f"{path} has a ball and no start: give --omega W1,W2,W3 and --time S, or chapsym scene new ball.toml "
-                f"--from {files.pasted(path)} makes a scene of it"
-            )
+            made = f"chapsym scene new ball.toml --from {files.pasted(path)} makes a scene of it"
+            raise SceneError(f"{path} has a ball and no start: give --omega W1,W2,W3 and --time S, or {made}")
         run = {"time": time, "frames": FRAMES_OF_ROBOT, "outputs": ["contact", "attitude", "omega"]}
         return checked({"ball": ball, "start": {"omega": omega, "rpy": [0, 0, 0]}, "run": run}, str(path))
     text = _text(path)

@@ -80,14 +80,8 @@ def _quantity(dimension: Dimension, swept: bool, positive: bool) -> Data:
         "random": _list("Drawn between a and b for each ball: [a, b].", [one, one]),
         "normal": _list("Drawn for each ball with [mean, deviation].", [one, one]),
     }
-    table = {
-        "type": "object",
-        "description": "A range, which makes a sweep.",
-        "properties": ranges,
-        "additionalProperties": False,
-        "minProperties": 1,
-        "maxProperties": 1,
-    }
+    table: Data = {"type": "object", "description": "A range, which makes a sweep.", "properties": ranges}
+    table |= {"additionalProperties": False, "minProperties": 1, "maxProperties": 1}
     return {"description": f"{dimension.name} ({dimension.units}), or a range", "anyOf": [amount, text, table]}
 
 

@@ -4,17 +4,7 @@ import math
 import re
 from typing import Annotated, Literal, Self, get_args
 
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Discriminator,
-    Field,
-    GetJsonSchemaHandler,
-    Tag,
-    field_validator,
-    model_validator,
-)
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, field_validator, model_validator
 from pydantic_core import core_schema
 
 from chapsym.accuracy.motion import FINEST
@@ -48,9 +38,7 @@ class Quantity:
     def __get_pydantic_core_schema__(self, source: object, handler: object) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(self.read)
 
-    def __get_pydantic_json_schema__(
-        self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
-    ) -> dict[str, object]:
+    def __get_pydantic_json_schema__(self, schema: core_schema.CoreSchema, handler: object) -> dict[str, object]:
         return {"quantity": self.dimension.units, "swept": self.swept, "positive": self.positive}
 
 
@@ -156,8 +144,6 @@ Accurate = Annotated[float, Accuracy()]
 #: What the map has and the continuous motion has not.
 OF_THE_MAP = frozenset({"discrete_momentum", "phase", "rotation_number"})
 Output = Literal[*OUTPUTS]  # type: ignore[valid-type]
-
-
 #: The keys of [start] that are quaternions, and where in them the scalar and the vector stand.
 SCALAR_FIRST = {"attitude": (0, 1, 2, 3), "quaternion_xyzw": (3, 0, 1, 2)}
 #: Those that say how the body is turned.
@@ -256,20 +242,17 @@ class BallTable(Table):
     def _one_body(self) -> Self:
         _one_of(self.given("mass_tensor", "inertia", "preset"), "ball", "mass_tensor or inertia (or a preset)")
         keys = self.given(*sorted(set(bodies.KEYS)))
-        if self.mass_tensor is not None and len(self.mass_tensor) > MOST_DIMENSIONS:
-            told_n = (
-                f"ball.mass_tensor has {len(self.mass_tensor)} numbers, and {MOST_DIMENSIONS} dimensions are the most"
-            )
-            raise Misfit(f"{told_n}: a step of more takes a second and longer", "mass_tensor")
+        if self.mass_tensor is not None and (n := len(self.mass_tensor)) > MOST_DIMENSIONS:
+            clause = f"ball.mass_tensor has {n} numbers, and {MOST_DIMENSIONS} dimensions are the most"
+            raise Misfit(f"{clause}: a step of more takes a second and longer", "mass_tensor")
         if self.preset is None:
             if keys:
                 raise Misfit(f"ball.{keys[0]} goes with ball.preset", keys[0])
             return self._with_contact()
         if wrong := [key for key in keys if key not in bodies.keys_of(self.preset)]:
             raise Misfit(f"ball.{wrong[0]} does not go with the preset {self.preset}", wrong[0])
-        if missing := [
-            key for key in ("mass", "radius", *bodies.keys_of(self.preset, required=True)) if getattr(self, key) is None
-        ]:
+        needed = "mass", "radius", *bodies.keys_of(self.preset, required=True)
+        if missing := [key for key in needed if getattr(self, key) is None]:
             raise Misfit(f"ball.{missing[0]} is missing: the preset {self.preset} needs it", "preset")
         return self._with_contact()
 

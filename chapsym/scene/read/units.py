@@ -46,8 +46,6 @@ _FORM = re.compile(r"\s*([+-]?[0-9./]+(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*", re.ASCI
 _SHORT = re.compile(r"\b(?:kilo|mega|giga|milli|micro|nano|centi|deci|hecto)s?\b")
 #: No parentheses, and no numbers but one-digit exponents, so that nothing is costly to evaluate.
 _UNIT = re.compile(r"(?:1\s*/)?(?:[^\W\d]|[\s°²³·*/^-]|[1-9](?!\d))+")
-
-
 #: Letters of a number with a unit.
 LONGEST = 200
 

@@ -13,24 +13,11 @@ import numpy as np
 
 import chapsym
 from chapsym.accuracy.discretisation import discretisation
-from chapsym.dynamics import Ball
-from chapsym.dynamics.labelled import (
-    NOT_RUN,
-    OUTCOME,
-    TIME,
-    Arrays,
-    Attributes,
-    Labelled,
-    about,
-    bodies,
-    coordinates,
-    moments,
-    with_clock,
-)
+from chapsym.dynamics import Ball, labelled
+from chapsym.dynamics.labelled import OUTCOME, TIME, Arrays, Labelled, about, with_clock
 from chapsym.dynamics.outputs import BOUND, LOW, OUTPUTS, labels
 
-from ..members.members import Body
-from ..members.members import bodies as bodies_of
+from ..members.members import Body, bodies
 from ..plan.models import Chosen, Moving, State
 from ..plan.plan import Plan
 from ..read.errors import Data, SceneError
@@ -58,7 +45,7 @@ def layout(plan: Plan) -> dict[str, Labelled]:
     n = plan.members.dimension
     length = {"ball": len(plan.members), "frame": plan.frames} | {dim: len(of) for dim, of in labels(n).items()}
 
-    def add(name: str, dims: tuple[str, ...], attrs: Attributes, missing: float = NOT_RUN) -> None:
+    def add(name: str, dims: tuple[str, ...], attrs: labelled.Attributes, missing: float = labelled.NOT_RUN) -> None:
         found[name] = Labelled(dims, np.broadcast_to(missing, [length[dim] for dim in dims]), attrs)
 
     for name in plan.task.outputs:
@@ -91,19 +78,16 @@ def arrays(plan: Plan, columns: Columns, state: State) -> Arrays:
         name: replace(one, values=np.asarray((state if name in OF_BALLS else columns)[name]))
         for name, one in layout(plan).items()
     }
-    variables |= bodies(plan.members.ball, plan.members.axes, (len(plan.members),))
-    coords = coordinates(plan.members.names, variables, plan.members.dimension) | _moments(plan)
+    variables |= labelled.bodies(plan.members.ball, plan.members.axes, (len(plan.members),))
+    task, clock = plan.task, np.arange(plan.frames, dtype=np.int64)
+    coords = labelled.coordinates(plan.members.names, variables, plan.members.dimension)
+    if task.chosen and task.time is not None:
+        coords["time"] = Labelled(("frame",), clock * task.time / max(plan.frames - 1, 1), TIME)
+    else:
+        coords |= labelled.moments(clock * task.every, task.time_step)
     for key, values in plan.members.parameters.items():
         coords[key] = Labelled(("ball",), values, about(key, units_of(key)))
     return Arrays(variables | coords, coords, provenance(plan) | _accuracy(plan))
-
-
-def _moments(plan: Plan) -> dict[str, Labelled]:
-    """The clock of the frames."""
-    task = plan.task
-    if task.chosen and task.time is not None:
-        return {"time": Labelled(("frame",), np.arange(plan.frames) * task.time / max(plan.frames - 1, 1), TIME)}
-    return moments(np.arange(plan.frames, dtype=np.int64) * task.every, task.time_step)
 
 
 def provenance(plan: Plan) -> Data:
@@ -199,7 +183,7 @@ def _tables(data: "Dataset") -> list[Body]:
     """The tables of balls of the scene of a result; raises SceneError if they do not form one grid."""
     if not data.attrs.get("scene"):
         raise SceneError("the result does not say of which scene it is, so that its ranges are not known")
-    tables = bodies_of(from_source(data.attrs["scene"]))
+    tables = bodies(from_source(data.attrs["scene"]))
     if data["ball"].values.tolist() != [name for body in tables for name in body.names]:
         raise SceneError("this is a part of the sweep: make a grid of the whole result, then choose of that")
     if any((_spans(body), body.sweep.shape) != (_spans(tables[0]), tables[0].sweep.shape) for body in tables):

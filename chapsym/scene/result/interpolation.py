@@ -59,8 +59,7 @@ def interpolated(run: Any, times: ArrayLike) -> Any:
     if not hasattr(type(run), "data_vars"):
         raise BadInput(f"run must be a result, its Dataset, or a Trajectory, not {brief(run)}")
     dataset = run if "ball" in run.dims else run.expand_dims("ball")
-    reason = missing(dataset)
-    if reason is not None:
+    if (reason := missing(dataset)) is not None:
         raise BadInput(f"there is nothing between the frames: {reason}")
     frames, per_step = _states(dataset)
     found = frames.at(np.atleast_1d(numbers(times, "times")))

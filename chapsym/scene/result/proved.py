@@ -24,12 +24,8 @@ if TYPE_CHECKING:
 UNITS = {"gamma": "", "omega": " rad/s", "attitude": "", "contact": " m"}
 #: The quantities with bounds in a result of the map, with their units.
 UNITS_OF_MAP = {"momentum": " kg m²", "gamma": "", "attitude": "", "contact": " m"}
-
-
 #: The bits of the differences, so that they have no rounding of float64.
 BITS = 128
-
-
 #: The digits of the motion for a comparison with a result in float64, and the name of the bounds in its attributes.
 DIGITS, PROVED = 18, "proved"
 

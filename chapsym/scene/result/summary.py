@@ -160,8 +160,6 @@ def far(data: "Dataset | Arrays") -> Data:
 
 
 _CHOSEN = ("order", "substeps")
-
-
 #: The model to which an error refers; the error of the model itself is not estimated.
 MODEL = "balanced, without slip"
 

@@ -80,7 +80,7 @@ class Store:
         elif path.exists():
             with _locked(path):
                 _discard(path)
-        is_new = not path.exists() and created(path, lambda place: _create(place, plan))
+        is_new = not path.exists() and created(path, lambda place: _fill(place, plan))
         with _locked(path):
             check_same(path, plan)  # another process may have made it, since it was not there
             if not is_new or store._says_complete:
@@ -311,11 +311,9 @@ def mark_of(store: Path, chunk: int) -> Path:
 def check_same(path: Path, plan: Plan) -> None:
     """Raises SceneError, with the difference, unless the result is of this plan and these versions."""
     found, wanted = attributes(path), provenance(plan)
-    key = _first_difference(_data(found.get("scene")), _data(wanted["scene"]))
-    if key is not None:
+    if (key := _first_difference(_data(found.get("scene")), _data(wanted["scene"]))) is not None:
         raise SceneError(f"{path} holds another scene ({key} differs); {ELSE}")
-    clause = difference(found, wanted)
-    if clause is not None:
+    if (clause := difference(found, wanted)) is not None:
         raise SceneError(f"{path} {clause}; {ELSE}")
 
 
@@ -432,11 +430,6 @@ def _alive(pid: int) -> bool:
     except (OSError, OverflowError):  # of another user
         return True
     return True
-
-
-def _create(path: Path, plan: Plan) -> None:
-    _fill(path, plan)
-    folder_of(path).mkdir()
 
 
 def _fill(place: "Path | MemoryStore", plan: Plan) -> None:

@@ -244,12 +244,9 @@ def unit(text: str, about: Data, path: str, chunk: int, segment: int, state: Sta
     """
     try:
         plan = _plan(text)
-        clause = difference(provenance(plan), about)
-        if clause is not None:
+        if (how := difference(provenance(plan), about)) is not None:
             version = f"chapsym {chapsym.__version__}, and {about['chapsym_version']} here"
-            raise SceneError(
-                f"what a worker of the cluster would compute {clause} ({version}): give all the same chapsym"
-            )
+            raise SceneError(f"what a worker of the cluster would compute {how} ({version}): give all the same chapsym")
         columns, after = computed(plan, chunk, segment, state)
         check_same(Path(path), plan)  # this worker may be late, and the store may belong to another run
         Store(Path(path), plan).write(chunk, segment, columns)
