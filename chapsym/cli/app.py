@@ -25,8 +25,6 @@ from .output import fail, note, quiet
 app = typer.Typer(
     pretty_exceptions_enable=False, rich_markup_mode=None, context_settings={"help_option_names": ["-h", "--help"]}
 )
-
-
 INTERRUPTED = 130
 #: Of errors that name no file, and are not of the output: where a process begins, or its folder is asked for.
 CROWDED = "the system refuses more files, threads or processes: end others, or raise its limits (ulimit -n, -u, -v)"

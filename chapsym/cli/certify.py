@@ -31,9 +31,7 @@ app.add_typer(certify, name="certify")
 
 #: The options of a ball without its mass and radius.
 BODY = {name: BALL[name] for name in ("mass_tensor", "inertia", "contact")}
-
 Output = Annotated[Path | None, writes("FILE", "Write the certificate there.")]
-
 Digits = Annotated[int | None, takes("N", "Decimals; as many as needed by default.")]
 Radius = Annotated[str | None, takes("R", "How far parameters may be off; the largest power of 10.")]
 Limit = Annotated[float, takes("S", "Seconds after which the search stops, at its next report of progress.")]
@@ -219,8 +217,7 @@ def manifest_of(folder: Annotated[Path, argument("DIR", "Certificates, in this f
                     fail(f"{file}: {error}", 1)
     if not names:
         fail(f"{folder} has no certificates", 2)
-    text = json.dumps(manifest.made(names), indent=1) + "\n"
-    files.write_text(path, text)
+    files.write_text(path, json.dumps(manifest.made(names), indent=1) + "\n")
     put(f"wrote {path}: {len(names)} certificates")
 
 
@@ -321,12 +318,9 @@ def run_of_map(
         fail(f"{scene} is of the motion of the ball: add map = true under [run], or take chapsym certify motion", 2)
     if len(plan.members) > 1 or plan.members.axes is not None or plan.members.dimension > 3:
         fail(f"{scene}: certify run takes one ball in three dimensions, by its principal moments", 2)
-    start = plan.members.momentum[0], plan.members.gamma[0]
-    ball, task = one_ball(plan.members, 0), plan.task
+    start, task = (one_ball(plan.members, 0), plan.members.momentum[0], plan.members.gamma[0]), plan.task
     check_steps(task.steps // task.every * task.every)
-    run = trajectory(
-        ball, *start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True
-    )
+    run = trajectory(*start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True)
     _deliver(output, as_json, limit, partial(search, limit=limit), run)
 
 

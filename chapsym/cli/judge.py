@@ -67,14 +67,12 @@ def judge(
         fail("give one result, or three or more with steps in one ratio: two do not tell an order", 2)
     if output is not None:
         save(output, case, runs, found, known)
+    pairs = list(zip(runs, found, strict=True))
     if as_json:
-        rows = [
-            {"file": run.file, "time_step": run.step, "departure": summary(one, case.time)}
-            for run, one in zip(runs, found, strict=True)
-        ]
+        rows = [{"file": x.file, "time_step": x.step, "departure": summary(one, case.time)} for x, one in pairs]
         print_json({"case": case.name, "results": rows, "convergence": {name: vars(x) for name, x in known.items()}})
         return
-    for run, one in zip(runs, found, strict=True):
+    for run, one in pairs:
         step = "" if run.step is None else f", step {run.step:g} s"
         put(f"{run.file}{step}, against {case.name}{NONE if case.own else ''}:")
         for line in lines(summary(one, case.time)):

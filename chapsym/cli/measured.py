@@ -48,8 +48,7 @@ def write(output: Path, title: str, about: str, tables: Sequence[Table], shown: 
     for table in tables:
         lines += ["", f"## {_text(table.title)}", "", *_rows(table.rows, shown)]
         lines += ["", *(f"- {_text(sentence)}" for sentence in table.sentences)] if table.sentences else []
-    text = "\n".join(lines) + "\n"
-    files.write_text(output, text)
+    files.write_text(output, "\n".join(lines) + "\n")
 
 
 def show(console: "Console", tables: Sequence[Table], shown: Callable[[Any], "str | Text"]) -> None:

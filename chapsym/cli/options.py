@@ -36,25 +36,17 @@ def argument(metavar: str, help: str) -> Any:
 #: Packages of research, in a checkout.
 STUDIES = ("rotation", "energy", "chaos")
 
+#: The precisions that a command takes by name.
+NAMES = ("single", "double", "double-double")
 #: By how much, relatively, a symmetric tensor may differ from its transpose, as in scenes.
 ASYMMETRY = Fraction(1, 10**12)
 
 Records = Annotated[
     Path | None, takes("FILE", "The JSON Lines file of verdicts; in the user's cache by default.", "--records")
 ]
-
 OWN = "Claims of your own: a folder of Python scripts, one script, or a package. It is code, and it is run."
 Own = Annotated[str | None, takes("FOLDER", OWN, "--register")]
-
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]
-
-Momentum = Annotated[str, takes("K1,K2,K3", "The discrete momentum.")]
-
-Gamma = Annotated[str, takes("G1,G2,G3", "The unit vertical, upwards, in the body.")]
-
-Bits = Annotated[int | None, takes("BITS", "Bits of an Arb enclosure.", min=2, max=1_000_000)]
-
-
 #: The options of a ball, by parameter.
 BALL = {
     "mass_tensor": Annotated[str | None, takes("J1,J2,J3", "J: second moments of mass (pseudo-inertia).")],
@@ -137,10 +129,7 @@ def contact_from(given: Mapping[str, str | None]) -> Fraction:
 
 
 def precision_from(
-    digits: int | None,
-    precision: str | None,
-    ball: int | None,
-    known: Sequence[str] = ("single", "double", "double-double"),
+    digits: int | None, precision: str | None, ball: int | None, known: Sequence[str] = NAMES
 ) -> "Precision":
     """The precision that the options name; `known` are the names that the command takes."""
     if sum(x is not None for x in (digits, precision, ball)) > 1:

@@ -48,8 +48,7 @@ def prove(
 
     register = register_from(own)
     claims = all_claims(register, lemmas=True)
-    unknown = [id for id in ids or [] if id not in claims]
-    if unknown:
+    if unknown := [id for id in ids or [] if id not in claims]:
         named = f" --register {files.pasted(own)}" if own else ""
         others = "" if own else ", and --register FOLDER judges claims of your own"
         known = f"chapsym prove --list{named} names those that are judged{others}"
@@ -166,8 +165,7 @@ def records_of(
     stale = records.stale(kept, claims)
     fresh = {id: record for id, record in kept.items() if id not in stale}
     failed = unproved(fresh.values())
-    wanted = [id for id in claims if id not in fresh or id in failed]
-    if wanted:
+    if wanted := [id for id in claims if id not in fresh or id in failed]:
         kept = kept | {record["id"]: record for record in judge_and_keep(wanted, None, kept_in, None, register)}
     for id in claims:  # what uses a claim is said by other scripts than its own
         kept[id]["evidence"]["downstream"] = downstream(id, claims)

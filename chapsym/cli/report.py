@@ -44,9 +44,8 @@ def report(
         fail(f"{str(output)!r}: the output must end in {' or '.join(reports.WRITERS)}", 2)
     check_apart(output, kept_in)
     if studies is not None and own is not None:
-        fail(
-            "--open shows the open questions of Fedorov's paper, and --register claims of your own: give one of them", 2
-        )
+        both = "--open shows the open questions of Fedorov's paper, and --register claims of your own"
+        fail(f"{both}: give one of them", 2)
     register = register_from(own)
     if studies is not None:
         _open_questions(output, studies, {} if fresh else kept_records(kept_in, register), kept_in, as_json)
@@ -62,14 +61,12 @@ def report(
             sections = register.sections(claims.values())
         for record in found:
             record["evidence"]["section"] = sections[record["id"]]
-    text = reports.WRITERS[output.suffix](found, _versions(), earlier, source)
-    files.write_text(output, text)
+    files.write_text(output, reports.WRITERS[output.suffix](found, _versions(), earlier, source))
     if as_json:
         print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})
     else:
         put(f"wrote {output}: {tally(found)}")
-    failed = reports.unproved(found)
-    if failed:
+    if failed := reports.unproved(found):
         fail(f"not proved: {', '.join(failed)}", 1)
 
 
@@ -99,8 +96,7 @@ def _open_questions(output: Path, folder: Path, kept: dict[str, Data], kept_in: 
     files.check_destination(output)
     found = records_of(wanted, kept, kept_in, register)
     evidence = [one for name in STUDIES if (one := _evidence(name, folder)) is not None]
-    text = questions.html(found, _certificates(), evidence, _versions())
-    files.write_text(output, text)
+    files.write_text(output, questions.html(found, _certificates(), evidence, _versions()))
     verdicts = {record["id"]: record["verdict"] for record in found if record["id"] in questions.QUESTIONS}
     if as_json:
         print_json({"file": str(output), "verdicts": verdicts, "studies": [one.name for one in evidence]})

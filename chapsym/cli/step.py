@@ -7,20 +7,12 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import (
-    BALL,
-    Bits,
-    Gamma,
-    Json,
-    Momentum,
-    ball_from,
-    contact_from,
-    precision_from,
-    takes,
-    tensor_from,
-    with_options,
-)
+from .options import BALL, Json, ball_from, contact_from, precision_from, takes, tensor_from, with_options
 from .output import print_json
+
+Momentum = Annotated[str, takes("K1,K2,K3", "The discrete momentum.")]
+Gamma = Annotated[str, takes("G1,G2,G3", "The unit vertical, upwards, in the body.")]
+Bits = Annotated[int | None, takes("BITS", "Bits of an Arb enclosure.", min=2, max=1_000_000)]
 
 
 @app.command()
