@@ -47,9 +47,8 @@ def pieces(latex: str) -> list[Piece]:
     """Splits a formula at its prose and after its commas, outside braces, \\left ... \\right and matrices."""
     found: list[Piece] = []
     start = depth = 0
-    for token in re.finditer(
-        r"\\left|\\right|\\begin|\\end|\\text\{([^{}]*)\}|[,;:](\\ |\\quad|\\qquad)|\\.|[{}]", latex
-    ):
+    tokens = r"\\left|\\right|\\begin|\\end|\\text\{([^{}]*)\}|[,;:](\\ |\\quad|\\qquad)|\\.|[{}]"
+    for token in re.finditer(tokens, latex):
         here = token.group()
         depth += {"{": 1, "\\left": 1, "\\begin": 1, "}": -1, "\\right": -1, "\\end": -1}.get(here, 0)
         if depth or token.start() < start:

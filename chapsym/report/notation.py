@@ -66,8 +66,7 @@ def matrix(value: str) -> Matrix | None:
 
 def value(text: str) -> str | Matrix:
     """A value as text, a column as a vector, a diagonal matrix by its diagonal, or the rows of a matrix."""
-    rows = matrix(text)
-    if rows is None:
+    if (rows := matrix(text)) is None:
         return text
     if len(rows[0]) == 1:
         return f"({', '.join(row[0] for row in rows)})"
@@ -234,16 +233,14 @@ def _token(text: str, start: int) -> tuple[int, str]:
     """The length of the next piece, and the piece."""
     here = text[start:]
     for table, mark in ((_SUPERSCRIPTS, "^"), (_SUBSCRIPTS, "_")):
-        run = "".join(table[x] for x in takewhile(table.__contains__, here))
-        if run:
+        if run := "".join(table[x] for x in takewhile(table.__contains__, here)):
             return len(run), f"{mark}{{{run}}}"
     name = re.match(r"[A-Za-z]+", here)
     if name and name.group() in _FUNCTIONS:
         return len(name.group()), f"\\operatorname{{{name.group()}}}"
     if name and len(name.group()) > 2:
         return len(name.group()), f"\\text{{{name.group()}}}"
-    index = re.match(r"([_^])(?:\{([^{}]*)\}|\(([^()]*)\)|([a-z]+|[^\W_]))", here)
-    if index:
+    if index := re.match(r"([_^])(?:\{([^{}]*)\}|\(([^()]*)\)|([a-z]+|[^\W_]))", here):
         inner = next(x for x in index.groups()[1:] if x is not None)
         several = re.fullmatch(r"[a-z]{2,3}", inner)  # i, j, k, not a word
         return index.end(), f"{index.group(1)}{{{inner if several else symbol_latex(inner)}}}"

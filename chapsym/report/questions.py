@@ -45,10 +45,7 @@ class Checked:
 
 
 def html(
-    records: Sequence[Record],
-    certificates: Sequence[Checked],
-    evidence: Sequence[Evidence],
-    versions: Mapping[str, str],
+    records: Sequence[Record], certificates: Sequence[Checked], evidence: Sequence[Evidence], versions: dict[str, str]
 ) -> str:
     """The whole page; the same input gives the same bytes.
 

@@ -97,8 +97,7 @@ def sections(records: Iterable[Record]) -> list[Section]:
 
 def label(id: str) -> str:
     """The name of a claim for a reader: (5.12), q0 or Proposition 4."""
-    found = re.fullmatch(r"(?:(prop|remark)-(\d+)|(\d+\.\d+))(?:-(.+))?", id)
-    if found is None:
+    if (found := re.fullmatch(r"(?:(prop|remark)-(\d+)|(\d+\.\d+))(?:-(.+))?", id)) is None:
         return id
     kind, number, equation, part = found.groups()
     return (f"({equation})" if equation else f"{_NAMES[kind]} {number}") + (f", {part}" if part else "")
@@ -113,10 +112,8 @@ def counts(records: Iterable[Record]) -> dict[str, int]:
 def carried(records: Iterable[Record]) -> dict[str, int]:
     """The grounds of the verdicts, counted over all claims: statements that the checker accepted, and sentences."""
     counts = [record["evidence"].get("carried") or {} for record in records]
-    found = {
-        name: sum(one.get(name, 0) for one in counts)
-        for name in ("statements", "identical", "comparisons", "counts", "counterexamples", "steps")
-    }
+    names = "statements", "identical", "comparisons", "counts", "counterexamples", "steps"
+    found = {name: sum(one.get(name, 0) for one in counts) for name in names}
     return found | {"sentences": sum(sum(one.get("sentences", {}).values()) for one in counts)}
 
 

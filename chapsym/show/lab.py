@@ -84,8 +84,7 @@ def _curves(cells: Sequence[Data]) -> Markup:
 
     from .drawing.style import COLOURS, legend, new, styled
 
-    drawn = [cell for cell in cells if not cell["failed"]]
-    if not drawn:
+    if not (drawn := [cell for cell in cells if not cell["failed"]]):
         return Markup()
     with styled():
         figure, (energy, error) = new("", columns=2, height=3.8, width=11)
@@ -93,8 +92,7 @@ def _curves(cells: Sequence[Data]) -> Markup:
             first = cell["curve"][0][1]
             changes = [(t, abs(e - first)) for t, e in cell["curve"]]
             for axes, points, mark in ((energy, changes, ""), (error, cell["work"], ".")):
-                shown = [(x, y if y > 0 else math.nan) for x, y in points]
-                if shown:
+                if shown := [(x, y if y > 0 else math.nan) for x, y in points]:
                     axes.plot(*zip(*shown, strict=True), marker=mark, color=colour, label=cell["method"])
                 if any(y > 0 for _, y in shown):  # otherwise there is no such scale
                     axes.set(yscale="log")

@@ -34,6 +34,7 @@ SHADES = 64
 #: Half the width of the lines between the octants of the ball, in radii.
 LINE = 0.022
 BLUE = np.array([0.25, 0.62, 0.92])
+Progress = Callable[[int, int], None]
 
 
 def missing(dataset: "Dataset") -> str | None:
@@ -52,10 +53,7 @@ def check_writer(form: str) -> None:
 
 
 def save_motion(
-    dataset: "Dataset",
-    path: Path,
-    ball: str | int | None = None,
-    progress: Callable[[int, int], None] = lambda drawn, of: None,
+    dataset: "Dataset", path: Path, ball: str | int | None = None, progress: Progress = lambda *_: None
 ) -> None:
     """Writes the motion of one ball, by default the first, to a .gif or, if ffmpeg is installed, an .mp4.
 
@@ -67,8 +65,7 @@ def save_motion(
     if form not in FORMATS:
         raise BadInput(f"{str(path)!r}: moving pictures end in .gif or .mp4")
     one = reading.begun(reading.with_balls(dataset, 0 if ball is None else ball))
-    reason = missing(one)
-    if reason is not None:
+    if (reason := missing(one)) is not None:
         raise BadInput(f"the motion cannot be drawn: {reason}")
     check_writer(form)
     files.check_destination(path)
@@ -78,7 +75,7 @@ def save_motion(
         files.write_whole(path, lambda stream: stream.write(whole.read_bytes()))
 
 
-def _film(one: "Dataset", path: Path, form: str, progress: Callable[[int, int], None]) -> None:
+def _film(one: "Dataset", path: Path, form: str, progress: Progress) -> None:
     scene = _Scene(one)
     writer = (_Gif if form == "gif" else animation.FFMpegWriter)(fps=RATE)
     try:
@@ -115,9 +112,8 @@ class _Scene:
         q = reading.values(fine, "attitude")[0, :end]
         chosen = _pictures(t[:end], q)
         part = chosen[-1] + 1
-        self.span = (
-            "" if part == end else f"the first {reading.span(t[:part], label)} of {reading.span(t[:end], label)}"
-        )
+        shown, whole = (reading.span(t[:n], label) for n in (part, end))
+        self.span = "" if part == end else f"the first {shown} of {whole}"
         self.t, self.attitude, self.contact = t[chosen], q[chosen], None
         self.unit, text = power(float(self.t[-1])) if label == "time, s" else (1.0, "")
         self.form = " ".join(["{:.2f}", *filter(None, (text,)), "s"]) if label == "time, s" else "step {:.0f}"
@@ -134,9 +130,7 @@ class _Scene:
         turn = np.linspace(0.0, 2.0 * np.pi, 181)
         above.plot(np.cos(turn), np.sin(turn), color="0.15", linewidth=1.0)
         self.image = above.imshow(self._ball(q[0]), extent=(-1, 1, -1, 1), origin="lower")
-        self.marks = [
-            above.text(0, 0, str(i + 1), ha="center", va="center", fontsize=13, weight="bold") for i in range(3)
-        ]
+        self.marks = [above.text(0, 0, i, ha="center", va="center", fontsize=13, weight="bold") for i in "123"]
         if rolls:
             whole = reading.values(fine, "contact")[0]
             self.factor, text = power(reading.size_of(whole))

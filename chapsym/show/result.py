@@ -293,11 +293,8 @@ def _save_zarr(dataset: "Dataset", path: Path) -> None:
     if path.exists():
         raise SceneError(f"{path} is there already; remove it, or choose another name")
     # The chunks of a part of another .zarr do not fit those of its files.
-    whole = (
-        dataset.drop_encoding()
-        .unify_chunks()
-        .assign_attrs({"complete": True, "chapsym_version": __version__} | dataset.attrs)
-    )
+    attrs = {"complete": True, "chapsym_version": __version__} | dataset.attrs
+    whole = dataset.drop_encoding().unify_chunks().assign_attrs(attrs)
     if whole.chunks:
         whole = whole.chunk({dim: max(lengths) for dim, lengths in whole.chunks.items()})
 
@@ -338,8 +335,7 @@ def _frames(dataset: "Dataset") -> str:
     if not dataset.sizes.get("frame"):
         return ""
     t, label = reading.clock(dataset)
-    last = int(reading.steps(dataset)[-1])
-    steps = f", {last} steps" if "step" in dataset.coords else ""
+    steps = f", {int(reading.steps(dataset)[-1])} steps" if "step" in dataset.coords else ""
     return f"{len(t)}{steps}" + (f", {t[-1]:.6g} s" if label == "time, s" else "")
 
 

@@ -32,6 +32,7 @@ ULP = 2.0**-52
 TOGETHER = 50
 #: The errors of q, 𝒦 and γ and what was promised, in ulps; κ; the largest error as a fraction of its bound.
 Compared = tuple[Floats, Floats, float, float]
+Random = np.random.Generator
 #: A term of the residual is rounded at most 8 times, by half an ulp: products of five factors and the sum.
 BUDGET = 4.0
 
@@ -69,42 +70,40 @@ class Row:
         return self.of_budget <= 1.0 and self.of_proved <= 1.0
 
 
-def _unit(rng: np.random.Generator) -> Floats:
+def _unit(rng: Random) -> Floats:
     v = rng.normal(size=3)
     v /= np.sqrt(v @ v)
     return v / np.sqrt(v @ v)
 
 
-def _ball(rng: np.random.Generator) -> tuple[Floats, float]:
+def _ball(rng: Random) -> tuple[Floats, float]:
     return rng.uniform(0.1, 2.0, 3), float(rng.uniform(0.0, 2.0))
 
 
-def _at_reach(
-    rng: np.random.Generator, J: Floats, D: float, g: Floats, fraction: float, along: Floats | None = None
-) -> State:
+def _at_reach(rng: Random, J: Floats, D: float, g: Floats, fraction: float, along: Floats | None = None) -> State:
     """A momentum in a direction, random by default, at `fraction` of the fold of the branch."""
     K = (_unit(rng) if along is None else along) * 100 * (J.sum() + D)
     return State(J, D, K * float(small_rotation(*[*K, *g, *J, D])[1]) * fraction, g)
 
 
-def _flat(rng: np.random.Generator) -> State:
+def _flat(rng: Random) -> State:
     J, D = _ball(rng)
     J[rng.integers(3)] = 0.0
     return _at_reach(rng, J, D, _unit(rng), rng.uniform(0.01, 0.7))
 
 
-def _nearly_equal(rng: np.random.Generator) -> State:
+def _nearly_equal(rng: Random) -> State:
     J, D = _ball(rng)
     return _at_reach(rng, J[0] * (1 + 1e-12 * rng.normal(size=3)), D, _unit(rng), rng.uniform(0.01, 0.7))
 
 
-def _vertical(rng: np.random.Generator) -> State:
+def _vertical(rng: Random) -> State:
     J, D = _ball(rng)
     g = _unit(rng)
     return _at_reach(rng, J, D, g, rng.uniform(0.01, 0.7), along=g)
 
 
-STRATA: dict[str, Callable[[np.random.Generator], State]] = {
+STRATA: dict[str, Callable[[Random], State]] = {
     "generic": lambda rng: _at_reach(rng, *_ball(rng), _unit(rng), rng.uniform(0.01, 0.7)),
     "tiny momentum, 1e-300 to 1e-8": lambda rng: State(
         *_ball(rng), _unit(rng) * 10 ** rng.uniform(-300, -8), _unit(rng)
@@ -215,8 +214,7 @@ def drift(steps: int = 100_000, progress: Callable[[int], None] = lambda done: N
     every = max(1, steps // 1000)
     run = trajectory(ball, (0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7), steps, every=every, progress=progress)
     values = run.invariants()
-    moved = np.abs(values - values[0]).max(axis=0) / np.abs(values[0])
-    height, squared, unit = map(float, moved)
+    height, squared, unit = map(float, np.abs(values - values[0]).max(axis=0) / np.abs(values[0]))
     return Drift(steps, height, squared, unit, budget=8 * ULP * float(np.sqrt(steps)))
 
 

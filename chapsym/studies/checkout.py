@@ -63,9 +63,8 @@ def machine() -> Data:
 
 def _cpu() -> str:
     try:
-        fields = dict(
-            re.findall(r"^(model name|cpu family|model|stepping)\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
-        )
+        text = Path("/proc/cpuinfo").read_text()
+        fields = dict(re.findall(r"^(model name|cpu family|model|stepping)\s*: (.*)$", text, re.MULTILINE))
     except OSError:
         return platform.processor() or "unknown"
     family = f"family {fields['cpu family']}, model {fields['model']}" if "cpu family" in fields else ""

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.errors import BadInput
 
 from .judge import Case, angle, equal, rolling
@@ -74,11 +75,8 @@ _DEGREES = "its angular velocity is in degrees per second: write rad/s"
 _Z_DOWN = "its z is down: write (x, -y, -z) for (x, y, z)"
 _OF_BODY = "its angular velocity is in the axes of the body, as MuJoCo gives it: turn it by the quaternion"
 _TWIST = "its velocities are in the axes of the body, as in ROS's Odometry: turn both by the quaternion"
-ORDERS: tuple[Way, ...] = (
-    PLAIN,
-    (_LAST, partial(np.roll, shift=1, axis=-1)),
-    (_MOVED, partial(np.roll, shift=-1, axis=-1)),
-)
+_rolled = partial(np.roll, axis=-1)
+ORDERS: tuple[Way, ...] = (PLAIN, (_LAST, partial(_rolled, shift=1)), (_MOVED, partial(_rolled, shift=-1)))
 SENSES: tuple[Way, ...] = (PLAIN, (_BACK, partial(np.multiply, [1, -1, -1, -1])))
 UNITS: tuple[Way, ...] = (
     PLAIN,
@@ -100,14 +98,8 @@ def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
     """A trajectory unchanged and in all other conventions, with their differences, the fewest first, one by one."""
     none = run.attitude is None
     found = []
-    for ways in product(
-        AXES,
-        *((PLAIN,), (PLAIN,)) if none else (ORDERS, SENSES),
-        UNITS,
-        (False, True),
-        TURNING,
-        ("",) if none else ("", _OF_BODY, _TWIST),
-    ):
+    turned = ((PLAIN,), (PLAIN,)) if none else (ORDERS, SENSES)
+    for ways in product(AXES, *turned, UNITS, (False, True), TURNING, ("",) if none else ("", _OF_BODY, _TWIST)):
         (frame, upturn), order, sense, unit, speed, rate, body = ways
         differences = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], body]
         if not speed or unit is not PLAIN:
@@ -155,11 +147,7 @@ def _apart(run: Trajectory, start: Start, soft: float) -> list[str]:
 
 
 def _check(
-    run: Trajectory,
-    of: str,
-    start: Callable[[Trajectory], Start],
-    second: Callable[[Trajectory], np.ndarray],
-    soft: float,
+    run: Trajectory, of: str, start: Callable[[Trajectory], Start], second: Callable[[Trajectory], Floats], soft: float
 ) -> None:
     """Raises BadInput unless the first row is a start; names the convention in which it is, or in which row two fits.
 
@@ -211,10 +199,8 @@ def check_axes(case: Case, run: Trajectory) -> None:
         values, size = getattr(run, part), np.abs(truth).max()
         if values is None or not size or not near.any():
             continue
-        plain, of_body = (
-            float(np.linalg.norm((read - truth)[near], axis=-1).max() / size)
-            for read in (values, in_space(run.attitude, values))
-        )
+        reads = values, in_space(run.attitude, values)
+        plain, of_body = (float(np.linalg.norm((x - truth)[near], axis=-1).max() / size) for x in reads)
         if plain > OFF and of_body * NEARER < plain:
             raise BadInput(f"{run.file} cannot be judged as it is written: {said}")
 
@@ -271,8 +257,7 @@ def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: f
         scene = checked(tomllib.loads(text), str(file), text)  # with its text, which has exact numbers
         return certified(file.stem, scene, exact_motion(scene)[0], times, progress, limit)
 
-    radius = members.ball.radius
-    if radius is None:
+    if (radius := members.ball.radius) is None:
         raise BadInput(f"{file}: the ball needs its radius, with its mass")
     _check_units(table.from_zero(), file, float(radius[0]))
     chosen = times[:: -(-len(times) // MOST_ROWS)]

@@ -181,8 +181,7 @@ def carried(case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.nd
     of mass above its lowest position.  A rotor is in the momentum and not in the energy: with K = Bω + a and K' = K × ω
     the motion keeps ½⟨Bω,ω⟩ (lemma `gyrostat-integrals`).
     """
-    back = attitude * np.array([1, -1, -1, -1])
-    turning = in_space(back, omega)
+    turning = in_space(attitude * np.array([1, -1, -1, -1]), omega)
     turning = case.inertia * turning if case.inertia.ndim == 1 else np.einsum("ij,fj->fi", case.inertia, turning)
     spin, inside, offset = (in_space(attitude, part) for part in (turning, case.rotor, case.offset))
     velocity = velocity + np.cross(omega, offset)  # of the centre of mass
@@ -223,9 +222,8 @@ def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Con
     steps = np.array([run.step for run in runs], dtype=float)
     ratios = steps[:-1] / steps[1:]
     if (ratios <= 1 + 1e-6).any() or np.ptp(ratios) > 1e-6 * ratios[0]:
-        raise BadInput(
-            f"the steps must be divided by the same number each time, but they are {', '.join(f'{x:g}' for x in steps)}"
-        )
+        shown = ", ".join(f"{x:g}" for x in steps)
+        raise BadInput(f"the steps must be divided by the same number each time, but they are {shown}")
     if of == "path":
         points, truth = [run.centre[:, :2] for run in runs], case.path
     else:
@@ -245,8 +243,7 @@ def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Con
 def _turned(case: Case, attitude: np.ndarray | None) -> np.ndarray:
     """The attitudes, with the signs that are nearer to the truth."""
     assert attitude is not None
-    along = (attitude * case.attitude).sum(axis=-1, keepdims=True)
-    return np.where(along < 0, -attitude, attitude)
+    return np.where((attitude * case.attitude).sum(axis=-1, keepdims=True) < 0, -attitude, attitude)
 
 
 def sentence(found: Convergence, unit: str) -> str:

@@ -15,6 +15,8 @@ from .judge import LIMITS, UNITS, Case, Convergence, Departure, limit_of, senten
 from .judge_tables import Trajectory
 
 FORMS = (".svg", ".png", ".pdf", ".html")
+#: The convergence of the path, and of the attitude.
+Known = Mapping[str, Convergence]
 
 
 def check_output(output: Path) -> None:
@@ -24,9 +26,7 @@ def check_output(output: Path) -> None:
     files.check_destination(output)
 
 
-def save(
-    output: Path, case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence]
-) -> None:
+def save(output: Path, case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Known) -> None:
     """Writes the curves, or the page, to what `check_output` takes; raises CannotWrite if the disk refuses."""
     data = {"case": case, "runs": runs, "found": found}
     with styled():
@@ -63,9 +63,7 @@ def draw(data: files.Data) -> Picture:
     return figure
 
 
-def _page(
-    case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence], curves: str
-) -> str:
+def _page(case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Known, curves: str) -> str:
     return rendered(
         Path(__file__).with_name("judge.html"), title=f"{case.name}: an engine, judged", curves=Markup(curves),
         limits=", ".join(f"{limit_of(name)} ({name})" for name in LIMITS),

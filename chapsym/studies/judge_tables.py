@@ -156,9 +156,7 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
             for row in texts:
                 row[name] = str(Decimal(row[name]).scaleb(-power))
     parts = {"centre": NEEDED[1:4], "attitude": NEEDED[4:], "velocity": MORE[:3], "omega": MORE[3:]}
-    digit = {
-        part: _digit([[row[name] for name in some if name in where] for row in texts]) for part, some in parts.items()
-    }
+    digit = {part: _digit([[row[x] for x in some if x in where] for row in texts]) for part, some in parts.items()}
     columns = {name: np.array([float(row[name]) for row in texts]) for name in where}
     if in_degrees := [name for name in MORE[3:] if units.get(name) in DEGREES]:
         columns |= {name: np.radians(columns[name]) for name in in_degrees}
@@ -258,8 +256,7 @@ def _digit(rows: Sequence[Sequence[str]]) -> float:
 
     One number does not show it: tables with all digits, too, have a height of 0.1 or a column of 0.0.
     """
-    texts = [text.lower().partition("e") for row in rows for text in row]
-    if not texts:
+    if not (texts := [text.lower().partition("e") for row in rows for text in row]):
         return 0.0
     unit = min(10.0 ** (int(power or 0) - len(mantissa.partition(".")[2])) for mantissa, _, power in texts)
     digits = max(len(mantissa.lstrip("+-0.").replace(".", "")) for mantissa, _, _ in texts)
@@ -277,10 +274,8 @@ def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:
         begins = f"its times begin at {given[0]:.10g} s, and those of the case at {times[0]:g} s"
         raise BadInput(f"{file} has no row at {times[0]:g} s: {begins}")
     if off.any():
-        raise BadInput(
-            f"{file} has no row at {times[off][0]:g} s: it must have one at each time of the case, every "
-            f"{times[1] - times[0]:g} s to {times[-1]:g} s"
-        )
+        every = f"every {times[1] - times[0]:g} s to {times[-1]:g} s"
+        raise BadInput(f"{file} has no row at {times[off][0]:g} s: it must have one at each time of the case, {every}")
     several = np.array([(np.abs(given - time) <= near).sum() > 1 for time in times])
     if several.any():
         raise BadInput(f"{file} has two rows at {times[several][0]:g} s")

@@ -85,9 +85,8 @@ def test_controls_and_letters_can_be_told_from_what_they_stand_on(written, opene
     assert count > 1000
     tab.locator(".chips button").first.click()
     assert low(tab, ".tools *")[0] == []
-    lit = re.search(
-        r"\.graph\.lit \.node \{ opacity: ([\d.]+)", (page.FOLDER / "style.css").read_text(encoding="utf-8")
-    )
+    style = (page.FOLDER / "style.css").read_text(encoding="utf-8")
+    lit = re.search(r"\.graph\.lit \.node \{ opacity: ([\d.]+)", style)
     ink, paper = (tab.evaluate(f"getComputedStyle(document.body).{name}") for name in ("color", "backgroundColor"))
     ink, paper = ([int(x) / 255 for x in re.findall(r"\d+", colour)] for colour in (ink, paper))
     faint = [float(lit[1]) * x + (1 - float(lit[1])) * y for x, y in zip(ink, paper, strict=True)]

@@ -34,9 +34,8 @@ def test_every_kind_of_error_says_what_is_true(handmade):
     assert "- Printed: $a = \\tfrac12 b$\n- True: $a = \\tfrac14 b$\n" in text
     assert "- Condition: q is real\n" in text
     assert "- True: a is at most b\n" in text
-    assert (
-        "- At `J = (1, 2, 4), γ = (0, 0, 1), sn δu = 3/5, sn u = 4/5`: `a_k = -b`; but `(1, 2/3) ≠ (1, -2/3)`" in text
-    )
+    point = "J = (1, 2, 4), γ = (0, 0, 1), sn δu = 3/5, sn u = 4/5"
+    assert f"- At `{point}`: `a_k = -b`; but `(1, 2/3) ≠ (1, -2/3)`" in text
     text = errata.latex(handmade, "1")
     assert r"\textit{Condition:} $q$ is real" in text
     assert r"\textit{True:} a is at most $b$" in text

@@ -71,9 +71,8 @@ def test_an_entry_that_a_release_had_is_withdrawn_and_not_forgotten(handmade):
     _, first = written(handmade, "1")
     assert written(handmade[1:], "1", first)[0]["withdrawn"] == []
     gone, text = written(handmade[1:], "2", first)
-    assert [(one["id"], states(one)) for one in gone["withdrawn"]] == [
-        ("5.4", [(1, "1", "corrected"), (2, "2", "withdrawn")])
-    ]
+    (one,) = gone["withdrawn"]
+    assert (one["id"], states(one)) == ("5.4", [(1, "1", "corrected"), (2, "2", "withdrawn")])
     assert written(handmade[1:], "3", text)[0]["withdrawn"] == gone["withdrawn"]
     back, _ = written(handmade, "3", text)
     assert back["withdrawn"] == []

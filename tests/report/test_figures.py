@@ -458,9 +458,8 @@ def test_the_same_result_gives_the_same_bytes_whatever_the_user_has_set(tmp_path
         *figures.save_all(dataset, tmp_path / name, ("png",), names=["spheres"]),
     ]
     first = saved("a")
-    with matplotlib.rc_context(
-        {"font.size": 30, "axes.linewidth": 5.0, "axes.facecolor": "red", "svg.hashsalt": "other"}
-    ):
+    own = {"font.size": 30, "axes.linewidth": 5.0, "axes.facecolor": "red", "svg.hashsalt": "other"}
+    with matplotlib.rc_context(own):
         second = saved("b")
         assert matplotlib.rcParams["font.size"] == 30
     assert [path.name for path in first] == [path.name for path in second]
@@ -552,9 +551,8 @@ def shown_texts(figure):
 @pytest.mark.parametrize("name", ["contact", "omega", *slow("attitude", "spheres")])
 def test_sparse_frames_are_drawn_as_the_curve_between_them(name):
     sparse, dense = timed(20, 400)
-    drawn, true = (
-        max(lines(figures.draw(data, name).axes[0]), key=lambda line: len(line.get_xdata())) for data in (sparse, dense)
-    )
+    both = (lines(figures.draw(data, name).axes[0]) for data in (sparse, dense))
+    drawn, true = (max(those, key=lambda line: len(line.get_xdata())) for those in both)
     assert drawn.get_marker() == "None"
     assert len(drawn.get_xdata()) == 7 * 20 + 1
     x, y = np.array(true.get_data())[:, ::20], np.array(drawn.get_data())[:, ::7]
@@ -613,9 +611,8 @@ def test_hundreds_of_turns_are_ranges_and_a_part_that_says_what_it_is():
         length = 0.0
         for line in axis.lines:
             x, y = np.array(line.get_data())
-            length += (
-                np.nansum(np.hypot(np.diff(x), np.diff(y))) if line.get_linewidth() == 1.2 and len(x) > 500 else 0.0
-            )
+            if line.get_linewidth() == 1.2 and len(x) > 500:
+                length += np.nansum(np.hypot(np.diff(x), np.diff(y)))
         assert 20 < length < 200
 
 

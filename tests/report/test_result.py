@@ -62,9 +62,8 @@ def test_the_drift_is_what_the_integrals_say():
     dataset = results.uneven(50)
     dataset["integrals"] = dataset["integrals"] * (1 + 1e-6 * np.arange(51)[:, np.newaxis])
     assert dict(Result(dataset).rows())["drift"].startswith("5.0e-05")
-    from_state = results.of(
-        chapsym.trajectory(results.VERTICAL, (0.1, 0.2, 0.1), (2 / 7, 3 / 7, 6 / 7), 50), ("momentum", "gamma")
-    )
+    run = chapsym.trajectory(results.VERTICAL, (0.1, 0.2, 0.1), (2 / 7, 3 / 7, 6 / 7), 50)
+    from_state = results.of(run, ("momentum", "gamma"))
     assert re.match(r"[1-9]\.\de-16", dict(Result(from_state).rows())["drift"])
 
 
@@ -116,9 +115,8 @@ def test_the_command_draws_a_result_with_its_page(tmp_path):
 
 def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path):
     """Balls that have not begun are not counted as stopped; what is saved of it stays half a run."""
-    small_units.interrupted(
-        tmp_path / "half.zarr", small_units.PART, small_units.plan((*small_units.SOME, "attitude", "contact"))
-    )
+    plan = small_units.plan((*small_units.SOME, "attitude", "contact"))
+    small_units.interrupted(tmp_path / "half.zarr", small_units.PART, plan)
     done = command("show", tmp_path / "half.zarr", "-o", tmp_path / "p", "--figures", "contact", "--page")
     assert done.returncode == 0, done.stderr
     words = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 10 balls to their ends)\n", done.stdout)[1]

@@ -424,9 +424,8 @@ def test_controls_and_letters_can_be_told_from_what_they_stand_on(rolling, schem
     page.tab.keyboard.press("?")
     assert low(page.tab, "dialog *")[0] == []
     style = (FOLDER / "page.css").read_text(encoding="utf-8")
-    track = re.findall(
-        r"slider-runnable-track \{.*?to right, var\(--([a-z]+)\).*?var\(--([a-z]+)\) 0", style, re.DOTALL
-    )[0]
+    sign = r"slider-runnable-track \{.*?to right, var\(--([a-z]+)\).*?var\(--([a-z]+)\) 0"
+    track = re.findall(sign, style, re.DOTALL)[0]
     thumb = re.search(r"-webkit-slider-thumb \{.*?background: var\(--([a-z]+)\)", style, re.DOTALL)[1]
     named = product((*track, thumb, "link", "muted", "gamma", "omega", "momentum"), ("paper", "raised", "on", "plane"))
     for root, (name, ground) in product(re.findall(r":root \{(.*?)\}", style, re.DOTALL)[:2], list(named)):

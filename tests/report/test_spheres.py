@@ -96,9 +96,8 @@ def test_the_range_of_the_energy_is_that_of_all_states_with_these_integrals(of_g
     for direction, low, high in zip(directions, least, largest, strict=True):
         first = unit(np.cross(direction, [0.3, -0.8, 0.52]))
         turn = np.linspace(0, 2 * np.pi, 20_000)[:, np.newaxis]
-        others = cosine * direction + np.sqrt(1 - cosine**2) * (
-            np.cos(turn) * first + np.sin(turn) * np.cross(direction, first)
-        )
+        across = np.cos(turn) * first + np.sin(turn) * np.cross(direction, first)
+        others = cosine * direction + np.sqrt(1 - cosine**2) * across
         here = np.broadcast_to(direction, others.shape)
         m, gamma = (others, here) if of_gamma else (here, others)
         energy = kernels.energy(m, gamma, J, np.float64(D))
@@ -137,9 +136,8 @@ def test_what_is_behind_the_sphere_is_fainter():
     points = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=-1)
     view = sphere.View(np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.array([0, -1.0, 0]))
     sphere.draw_orbit(axis, view, points, "black")
-    by_alpha = {
-        line.get_alpha(): np.isfinite(line.get_ydata()).sum() for line in axis.lines if len(line.get_xdata()) > 5
-    }
+    drawn = (line for line in axis.lines if len(line.get_xdata()) > 5)
+    by_alpha = {line.get_alpha(): np.isfinite(line.get_ydata()).sum() for line in drawn}
     in_front = int((points @ view.towards >= 0).sum())
     assert by_alpha == {1.0: in_front, sphere.BEHIND: 60 - in_front}
 

@@ -119,9 +119,8 @@ def still(of):
     """The truth of a ball at rest, at the frames of a run."""
     frames = len(of.centre)
     attitude = np.tile([1.0, 0, 0, 0], (frames, 1))
-    return Case(
-        "still", 1.0, 1.0, np.ones(3), np.arange(frames), np.zeros((frames, 2)), attitude, np.zeros((frames, 3))
-    )
+    path, omega = (np.zeros((frames, n)) for n in (2, 3))
+    return Case("still", 1.0, 1.0, np.ones(3), np.arange(frames), path, attitude, omega)
 
 
 def run(step, order, floor, by=1.0, frames=5):

@@ -41,8 +41,7 @@ def is_vertical(momentum: Floats, gamma: Floats) -> bool:
     """Whether 𝒦 = hγ, h ≠ 0, in every frame, (..., 3), but those that are NaN."""
     there = np.isfinite(gamma).all(axis=-1)
     momentum, gamma = momentum[there], gamma[there]
-    direction = unit(momentum)
-    return bool(momentum.any() and np.abs(np.cross(direction, gamma)).max() < VERTICAL)
+    return bool(momentum.any() and np.abs(np.cross(unit(momentum), gamma)).max() < VERTICAL)
 
 
 def curve_through(body: Ball, orbit: Floats, D: float) -> Floats | None:

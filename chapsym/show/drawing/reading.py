@@ -131,10 +131,8 @@ def values(dataset: "Dataset", name: str) -> Floats:
     bad = there & ~np.isfinite(array).reshape(*there.shape, -1).all(axis=-1)
     if bad.any():
         ball, frame = map(int, np.argwhere(bad)[0])
-        raise BadInput(
-            f"{name} of the ball {ball_names(dataset)[ball]!r} is not finite at step {int(steps(dataset)[frame])}, "
-            "which it reached: the result is damaged"
-        )
+        clause = f"is not finite at step {int(steps(dataset)[frame])}, which it reached: the result is damaged"
+        raise BadInput(f"{name} of the ball {ball_names(dataset)[ball]!r} {clause}")
     if not there.all():
         array[~there] = np.nan
     return array

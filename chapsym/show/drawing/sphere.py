@@ -81,13 +81,9 @@ def draw_globe(axis: Axes, view: View, names: tuple[str, str, str]) -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
     cosine, sine = np.cos(turn), np.sin(turn)
     axis.fill(cosine, sine, facecolor="#f6f8fa", edgecolor="0.45", linewidth=0.9, zorder=0)
-    parallels = [
-        np.stack([cosine * np.cos(a), sine * np.cos(a), 0.0 * turn + np.sin(a)], -1)
-        for a in np.deg2rad([-60, -30, 0, 30, 60])
-    ]
-    meridians = [
-        np.stack([cosine * np.cos(a), cosine * np.sin(a), sine], -1) for a in np.deg2rad([0, 30, 60, 90, 120, 150])
-    ]
+    tilts = np.deg2rad([-60, -30, 0, 30, 60])
+    parallels = [np.stack([cosine * np.cos(a), sine * np.cos(a), 0.0 * turn + np.sin(a)], -1) for a in tilts]
+    meridians = [np.stack([cosine * np.cos(a), cosine * np.sin(a), sine], -1) for a in np.deg2rad(range(0, 180, 30))]
     for circle in (*parallels, *meridians):
         _draw(axis, view, circle, color="0.78", linewidth=0.6, zorder=0.5)
     for end, name in zip(np.concatenate([np.eye(3), -np.eye(3)]), (*names, "", "", ""), strict=True):
@@ -143,7 +139,6 @@ def draw_orbit(
         axis.plot(x, y, ".", color=colour, markersize=1.5, alpha=0.35, zorder=2.5, rasterized=True)
     for end, marker, face in ((points[0], "o", "white"), (points[-1], "s", colour)):
         x, y, depth = view.project(end)
-        axis.plot(
-            x, y, marker, markersize=6, color=colour, markerfacecolor=face, zorder=5, alpha=1.0 if depth >= 0 else 0.5
-        )
+        alpha = 1.0 if depth >= 0 else 0.5
+        axis.plot(x, y, marker, markersize=6, color=colour, markerfacecolor=face, zorder=5, alpha=alpha)
     return part

@@ -113,9 +113,8 @@ def legend(figure: Figure, axes: Sequence[Axes]) -> None:
         return
     lengths = [len(re.sub(r"[${}_]", "", re.sub(r"\\[a-z]+", "", label))) + 5 for label in found]
     rows = 1 if sum(lengths) <= LETTERS else -(-len(found) // max(1, LETTERS // max(lengths)))
-    figure.legend(
-        list(found.values()), list(found), loc="outside lower center", ncols=-(-len(found) // rows), columnspacing=1.2
-    )
+    columns, handles = -(-len(found) // rows), list(found.values())
+    figure.legend(handles, list(found), loc="outside lower center", ncols=columns, columnspacing=1.2)
 
 
 def power(size: float) -> tuple[float, str]:

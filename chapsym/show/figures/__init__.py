@@ -101,15 +101,12 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     """
     from ..drawing.style import add_note, styled
 
-    kind = kinds().get(plain_text(name) or "")
-    if kind is None:
+    if (kind := kinds().get(plain_text(name) or "")) is None:
         raise BadInput(f"there is no figure {brief(name)}; choose of {', '.join(kinds())}")
     chosen = reading.with_balls(dataset, ball)
-    so_far = reading.unfinished(chosen)
-    if so_far is not None:
+    if (so_far := reading.unfinished(chosen)) is not None:
         chosen = chosen.assign_attrs(title=f"{so_far}: {reading.title(chosen) or 'a result'}")
-    reason = kind.missing(chosen)
-    if reason is not None:
+    if (reason := kind.missing(chosen)) is not None:
         raise BadInput(f"{name}: {reason}")
     begun = reading.begun(chosen)
     with styled(), np.errstate(over="ignore", invalid="ignore"):  # a damaged frame may have any numbers

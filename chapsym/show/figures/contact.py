@@ -36,9 +36,8 @@ def draw(dataset: Dataset) -> Picture:
         return _pairs(dataset.isel(ball=slice(0, FEW)), trace[:FEW], text)
     aside = [] if len(trace) > FEW else sideways(trace, reading.last_frames(dataset))
     heights = [panel_height(trace), *([2.1] if aside else [])]
-    figure, (axis, *below) = new(
-        reading.title(dataset), len(heights), height=sum(heights) / len(heights), height_ratios=heights
-    )
+    each = sum(heights) / len(heights)
+    figure, (axis, *below) = new(reading.title(dataset), len(heights), height=each, height_ratios=heights)
     axis.set_aspect("equal", adjustable="datalim")
     if len(trace) <= curves.LINES:
         _lines(axis, dataset, trace)
@@ -162,9 +161,8 @@ def _density(axis: Axes, trace: Floats) -> None:
     colour_bar(ScalarMappable(norm, "viridis_r"), [axis], f"frames of {len(trace)} balls in a cell")
     frames = np.flatnonzero(going.sum(axis=0) > going[:, 0].sum() // 2)  # of the balls that have started
     path = mean(trace[:, frames])
-    axis.plot(
-        *path.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=len(path) > VERTICES
-    )
+    dense = len(path) > VERTICES
+    axis.plot(*path.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=dense)
     for part in MOMENTS:
         k = int(frames[round(part * (len(frames) - 1))])
         for share in SHARES:

@@ -90,9 +90,7 @@ def _components(dataset: Dataset, array: Floats, names: list[str], symbol: str, 
 
 def draw_slip(dataset: Dataset) -> Picture:
     """|v - ρ ω × e₃|, the speed of the contact point of the body: 0 for a ball that rolls."""
-    return _components(
-        dataset, reading.values(dataset, "slip")[..., np.newaxis], ["slip"], "slip", reading.readable("m s-1")
-    )
+    return _components(dataset, reading.values(dataset, "slip")[..., None], ["slip"], "slip", reading.readable("m s-1"))
 
 
 def draw_attitude(dataset: Dataset) -> Picture:
@@ -188,8 +186,7 @@ def drifts(found: Floats, names: list[str]) -> list[Floats]:
 
 def relative(quantity: Floats, size: Floats) -> Floats:
     """(x - x at the start)/size, (balls, frames), of x (balls, frames) and size (balls,); not divided if that is 0."""
-    divisor = np.where(size > 0.0, size, 1.0)[:, np.newaxis]
-    return np.asarray((quantity - quantity[:, :1]) / divisor)
+    return np.asarray((quantity - quantity[:, :1]) / np.where(size > 0.0, size, 1.0)[:, np.newaxis])
 
 
 def _changes(dataset: Dataset, changes: dict[str, Floats], title: str, height: float) -> Picture:

@@ -93,7 +93,6 @@ def draw_rotation(dataset: Dataset) -> Picture:
         axis.plot(data[order] / factor, found[order], style, color=COLOURS[0], markersize=4, rasterized=dense)
     axis.set_xlabel(in_power(reading.literal(name), reading.readable(units), text))
     axis.set_ylabel("rotation number, turns a step")
-    lost = int((~np.isfinite(found)).sum())
-    if lost:
+    if lost := int((~np.isfinite(found)).sum()):
         axis.set_title(f"{lost} of {len(found)} balls have none (not on a closed curve)")
     return figure

@@ -26,8 +26,7 @@ NARROW = 0.25
 
 def missing(dataset: Dataset) -> str | None:
     """Why this figure cannot be drawn, in a sentence; None if it can."""
-    there = [name for name in NEEDS if name in dataset]
-    if not there:
+    if not (there := [name for name in NEEDS if name in dataset]):
         return 'no γ and no 𝒦: add "gamma" or "momentum" to run.outputs'
     if dataset[there[0]].sizes.get("axis", 3) != 3 or "row" in dataset.dims:
         return None if dataset.sizes.get("axis") == 4 else "spheres are drawn in three and four dimensions only"

@@ -83,7 +83,8 @@ def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion
     whole, most = part.sizes["frame"], min(max(FRAMES // len(names), LEAST), MOST)
     part = curves.finer(part, EVEN, most * len(names))
     between = (part.sizes["frame"] - 1) // max(whole - 1, 1)
-    arrays = {name: _numbers(part, name) for name in ("attitude", "contact", *VECTORS) if name in part}
+    there = [name for name in ("attitude", "contact", *VECTORS) if name in part]  # perhaps as decimal strings
+    arrays = {name: np.asarray(part[name].transpose("ball", "frame", ...).values).astype(np.float64) for name in there}
     reached = np.all([reading.reached(part), *(np.isfinite(array).all(axis=-1) for array in arrays.values())], axis=0)
     ends = np.where(reached.all(axis=1), part.sizes["frame"], reached.argmin(axis=1))
     if not ends.any():
@@ -129,11 +130,6 @@ def _chosen(dataset: Dataset, balls: Sequence[str | int] | None) -> tuple[Datase
         raise BadInput(f"choose from 1 to {MOST_BALLS} different balls, not {len(chosen)}")
     said = f"{'the first ' if balls is None else ''}{len(chosen)} of {count} balls are shown"
     return dataset.isel(ball=chosen), [said] if len(chosen) < count else []
-
-
-def _numbers(dataset: Dataset, name: str) -> Floats:
-    """A variable as float64, (balls, frames, ...), also from decimal strings."""
-    return np.asarray(dataset[name].transpose("ball", "frame", ...).values).astype(np.float64)
 
 
 def _rolling(one: Dataset, arrays: dict[str, Floats], radius: float, kept: np.ndarray, rolls: bool) -> Rolling:
@@ -208,8 +204,7 @@ def turns_between(
     """
     turns = least_turns(attitude)
     if omega is not None and seconds is not None:
-        expected = (omega[1:] + omega[:-1]) / 2 * seconds[:, np.newaxis]
-        whole, near = nearest_turns(turns, expected)
+        whole, near = nearest_turns(turns, (omega[1:] + omega[:-1]) / 2 * seconds[:, np.newaxis])
         return np.where((steps > 1)[:, np.newaxis], whole, turns), near | (steps <= 1)
     known = _length(turns) <= QUARTER
     if rolled is not None:
@@ -224,8 +219,7 @@ def thinned_turns(attitude: Floats, turns: Floats, known: np.ndarray, kept: np.n
     """
     if len(kept) < 2:
         return np.zeros((0, 3)), True
-    expected = np.add.reduceat(turns, kept[:-1], axis=0)
-    found, near = nearest_turns(least_turns(attitude[kept]), expected)
+    found, near = nearest_turns(least_turns(attitude[kept]), np.add.reduceat(turns, kept[:-1], axis=0))
     return found, bool(near.all() and known.all())
 
 
