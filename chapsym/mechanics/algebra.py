@@ -23,8 +23,9 @@ MOST_POINTS = 24
 #: Points at which roots may be rational: of quotients of the legs of right triangles.
 MOST_LOOKED, LEGS = 200, tuple(Fraction(p, q) for p, q in ((3, 4), (4, 3), (5, 12), (12, 5), (8, 15), (15, 8), (7, 24)))
 
-#: Exact values of symbols.
+#: Exact values of symbols, and rows of expressions.
 Point = dict[sp.Symbol, sp.Expr]
+Vectors = Sequence[Sequence[sp.Expr]]
 
 
 class Letters:
@@ -161,24 +162,18 @@ class Algebra:
         name, angles = self.system.name, self.letters.arguments("sin")
         for of in angles.values():
             if of not in self.system.coordinates:
-                raise BadSystem(
-                    f"{name}: exact verdicts need sin and cos of coordinates, which {of} is not: make it one"
-                )
+                clause = f"sin and cos of coordinates, which {of} is not: make it one"
+                raise BadSystem(f"{name}: exact verdicts need {clause}")
         if self.letters.arguments("pi"):
             raise BadSystem(f"{name}: exact verdicts are not for π: take a rational number, or turn the angles")
-        bound = set().union(*(e.free_symbols for e in self.holonomic)) & set(angles.values())
-        if bound:
-            raise BadSystem(
-                f"{name}: a holonomic constraint binds the angle {min(map(str, bound))} outside of sin and cos"
-            )
         held = set().union(*(e.free_symbols for e in self.holonomic))
+        if bound := sorted(map(str, held & set(angles.values()))):
+            raise BadSystem(f"{name}: a holonomic constraint binds the angle {bound[0]} outside of sin and cos")
         bare = set().union(*(e.free_symbols for e in (*self.rows, *self.offsets, *self.more)))
         turning = {of for function in ("sin", "cos") for x, of in self.letters.arguments(function).items() if x in held}
-        if turning & bare:
-            raise BadSystem(
-                f"{name}: a holonomic constraint binds the angle {min(map(str, turning & bare))}, which is not only in "
-                "sin and cos"
-            )
+        if both := turning & bare:
+            clause = f"binds the angle {min(map(str, both))}, which is not only in sin and cos"
+            raise BadSystem(f"{name}: a holonomic constraint {clause}")
         if any(sum(power for _, power in sp.factor_list(one)[1]) > 1 for one in self.holonomic):
             raise BadSystem(f"{name}: a holonomic constraint is a product: give the factor that is 0")
         roots = self.letters.arguments("sqrt")
@@ -211,8 +206,7 @@ class Algebra:
     @cached_property
     def points(self) -> list[Point]:
         """Exact points of the ring: rational numbers and positive roots of these; raises BadSystem if there is none."""
-        found = list(self._rooted(self._bare))
-        if not found:
+        if not (found := list(self._rooted(self._bare))):
             raise BadSystem(f"{self.system.name}: no exact point is found where its relations hold")
         return found
 

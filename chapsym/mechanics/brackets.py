@@ -12,7 +12,7 @@ from itertools import product
 
 import sympy as sp
 
-from .algebra import Algebra, Point, adjugate, determinant, generic, pivots, rank, size
+from .algebra import Algebra, Point, Vectors, adjugate, determinant, generic, pivots, rank, size
 from .system import BadSystem, System, a_system
 
 #: The largest number of different parts of the fields and brackets: 2000 take some seconds, and the time grows faster.
@@ -118,7 +118,7 @@ class Span:
     algebra: Algebra
     rows: sp.Matrix
     kept: Sequence[int]
-    vectors: Sequence[Sequence[sp.Expr]]
+    vectors: Vectors
     made: Sequence[Bracketed | None]
     inside: Sequence[tuple[Sequence[sp.Expr], Bracketed]]
 
@@ -129,7 +129,7 @@ def spanned(system: System) -> Span:
     algebra = Algebra(system)
     with_time = any(not algebra.is_zero(b) for b in algebra.offsets)
     whole = algebra.rows.row_join(algebra.offsets) if with_time else algebra.rows
-    rows, places = _whole(whole), _rows_of_places(algebra, with_time)
+    rows, places = _whole(whole), whole[whole.rows - len(algebra.holonomic) :, :]  # these have no offsets
     bound = max(rank(places, point) for point in algebra.points)
     point = generic(rows, [point for point in algebra.points if rank(places, point) == bound])
     dimension = rows.cols - bound
@@ -167,13 +167,6 @@ def spanned(system: System) -> Span:
     return Span(found, algebra, whole, kept, span, made, inside)
 
 
-def _rows_of_places(algebra: Algebra, with_time: bool) -> sp.Matrix:
-    """The rows of holonomic constraints; their rank is the number of independent ones."""
-    count = len(algebra.holonomic)
-    rows = algebra.rows[algebra.rows.rows - count :, :]
-    return rows.row_join(sp.zeros(count, 1)) if with_time else rows
-
-
 def _whole(rows: sp.Matrix) -> sp.Matrix:
     """Rows times their denominators."""
     made = []
@@ -198,7 +191,7 @@ def kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
     return fields
 
 
-def _matrix(vectors: Sequence[Sequence[sp.Expr]]) -> sp.Matrix:
+def _matrix(vectors: Vectors) -> sp.Matrix:
     return sp.Matrix([list(v) for v in vectors])
 
 
@@ -213,7 +206,7 @@ def bracket_of(x: Sequence[sp.Expr], y: Sequence[sp.Expr], algebra: Algebra) -> 
     return [along(x, b, algebra) - along(y, a, algebra) for a, b in zip(x, y, strict=True)]
 
 
-def _inside(span: Sequence[Sequence[sp.Expr]], vector: Sequence[sp.Expr], point: Point, algebra: Algebra) -> bool:
+def _inside(span: Vectors, vector: Sequence[sp.Expr], point: Point, algebra: Algebra) -> bool:
     """Whether a vector is in a span wherever the minor that is not 0 at the point is not: by Kronecker's theorem, all
     minors that border it are 0."""
     columns, larger = pivots(_matrix(span).xreplace(point)), _matrix([*span, vector])

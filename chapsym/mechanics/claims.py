@@ -23,7 +23,7 @@ from chapsym.prove.statements import Statement
 from chapsym.prove.trees import Data
 from chapsym.prove.witness import true_at
 
-from .algebra import Algebra, Point, adjugate, determinant, pivots
+from .algebra import Algebra, Point, Vectors, adjugate, determinant, pivots
 from .brackets import Bracketed, bracket_of, flag, spanned
 from .density import MOST_LEVELS, Volume, divergences, volume
 from .equations import OnShell, conserved
@@ -149,9 +149,8 @@ def fresh(name: str, taken: Collection[sp.Symbol]) -> sp.Symbol:
 
 
 #: Cells of a method in the ids of its claims.
-CELLS = {"order": "order", "self-adjoint": "adjoint", "reversible": "returns"} | {
-    f"keeps {name}": "volume" for name in VOLUMES
-}
+CELLS = {"order": "order", "self-adjoint": "adjoint", "reversible": "returns"}
+CELLS |= {f"keeps {name}": "volume" for name in VOLUMES}
 #: What has more parts is shown by what comes out of it.
 MOST_SHOWN = 4000
 
@@ -180,10 +179,8 @@ def _case(system: System, scheme: Scheme, what: str, found: Decided, quantity: s
 def _steps_in_words(scheme: Scheme, names: Mapping[sp.Symbol, sp.Symbol]) -> list[str]:
     """The equations of a step."""
     of = [(f"equation {i + 1} of a step", f"{e.xreplace(names)} = 0") for i, e in enumerate(scheme.residual)]
-    of += [
-        (f"after a step {x.xreplace(names)} is", str(e.xreplace(names)))
-        for x, e in zip(scheme.state, scheme.after, strict=True)
-    ]
+    ends = zip(scheme.state, scheme.after, strict=True)
+    of += [(f"after a step {x.xreplace(names)} is", str(e.xreplace(names))) for x, e in ends]
     return [f"{what}: {text}" for what, text in of if len(text) < MOST_LETTERS]
 
 
@@ -307,8 +304,7 @@ class _Steps:
             made.append(self.put(scheme.after, (*self.symbols, STEP), values))
             ends = made[0]
             if scheme.stages:
-                rates_of = zip(*made, strict=True)
-                sums = [sum(map(sp.Mul, scheme.stages[i], of), sp.S.Zero) for of in rates_of]
+                sums = [sum(map(sp.Mul, scheme.stages[i], of), sp.S.Zero) for of in zip(*made, strict=True)]
                 ends = [self.polynomial(x) + back * STEP * e for x, e in zip(state, sums, strict=True)]
             there = end if at is stages[-1][0] else stages[i + 1][0]
             self.lemmas.append(self.equal(f"what comes after {what}", ends, there))
@@ -385,8 +381,6 @@ def _missed(of: _Steps, back: int, said: str) -> tuple[list[Equation], Equation]
 
 #: Of what has more parts, derivatives are not given to the checker; those of what divides count more.
 MOST_PARTS, FRACTIONS = 1500, 5
-
-
 #: The largest number of parts of a conserved quantity; the combination for a larger one is too much work.
 MOST_OF_A_QUANTITY = 100
 #: Why there is no volume.
@@ -452,10 +446,8 @@ class Moving(OnShell):
     def principle(self) -> list[sp.Expr]:
         """d/dt ∂L/∂v - ∂L/∂q - F - Aᵀλ, of any acceleration and multipliers."""
         held = self.algebra.rows.T * sp.Matrix(self.multipliers) if self.multipliers else sp.zeros(len(self.q), 1)
-        units = sp.eye(len(self.q)).tolist()
-        leaning = [
-            self.rate(p, self.now) - self.rate(self.lagrangian, e) for p, e in zip(self.momenta, units, strict=True)
-        ]
+        units, rate = sp.eye(len(self.q)).tolist(), self.rate
+        leaning = [rate(p, self.now) - rate(self.lagrangian, e) for p, e in zip(self.momenta, units, strict=True)]
         return [e - f - r for e, f, r in zip(leaning, self.forces, held, strict=True)]
 
     def rate(self, of: sp.Expr, directions: Sequence[sp.Expr]) -> sp.Expr:
@@ -532,7 +524,7 @@ def certified(system: System, methods: Sequence[str] = ()) -> Iterator[Certified
 
 def _motion(system: System, _: str) -> Made:
     of = Moving(system)
-    n, gradient = len(of.q), [of.rate(of.lagrangian, unit) for unit in sp.eye(2 * len(of.q)).tolist()]
+    n, slope = len(of.q), [of.rate(of.lagrangian, unit) for unit in sp.eye(2 * len(of.q)).tolist()]
     rates = [of.rate(e, of.now) for e in (*of.momenta, *of.bindings)]
     matrix = of.mass.row_join(-of.algebra.rows.T).col_join(of.algebra.rows.row_join(sp.zeros(len(of.bindings))))
     right = list(matrix * sp.Matrix([*of.acceleration, *of.multipliers]) - sp.Matrix([*of.forced, *of.turning]))
@@ -540,9 +532,7 @@ def _motion(system: System, _: str) -> Made:
     printed: list[Statement] = [of.equal(text, left, right), _regular(of.equations[0], of.algebra)]
     along = [(e, of.now) for e in (*of.momenta, *of.bindings)]
     derived: list[Statement | str] = [
-        slopes(
-            of.algebra, "the derivatives of L", [(of.lagrangian, of.change)], [sum(map(sp.Mul, gradient, of.change))]
-        ),
+        slopes(of.algebra, "the derivatives of L", [(of.lagrangian, of.change)], [sum(map(sp.Mul, slope, of.change))]),
         slopes(of.algebra, "d/dt of ∂L/∂v and of A v + b", along, rates),
     ]
     said = r"\frac{d}{dt}\frac{\partial L}{\partial v} - \frac{\partial L}{\partial q} = A^T\lambda + F, A v + b = 0"
@@ -621,15 +611,13 @@ def _lost(of: Moving, what: str, quantity: sp.Expr, name: str) -> Case:
             state = [sp.Eq(e, 0, evaluate=False) for e in zeros]
             at = {x: v for x, v in at.items() if x in set().union(rate.free_symbols, *(e.free_symbols for e in zeros))}
             text = f"the rate of {what} is not 0 at a state of the motion"
-            wrong, said = (
-                Comparison(text, [*state, e], at)
-                for e in (sp.Eq(rate, 0, evaluate=False), sp.Ne(rate, 0, evaluate=False))
-            )
+            ends = (kind(rate, 0, evaluate=False) for kind in (sp.Eq, sp.Ne))
+            wrong, said = (Comparison(text, [*state, e], at) for e in ends)
             return Case(text, [said], wrong, [], [], of.premises, [f"{name}-motion"])
     raise BadSystem("no rational state is found where it changes")
 
 
-def _minor(vectors: Sequence[Sequence[sp.Expr]], points: Iterable[Point]) -> tuple[sp.Expr, Point, list[int]]:
+def _minor(vectors: Vectors, points: Iterable[Point]) -> tuple[sp.Expr, Point, list[int]]:
     """A minor of all vectors, a rational point where it is not 0, and its columns."""
     matrix = sp.Matrix([list(one) for one in vectors])
     for point, _, columns in _full(matrix, points):
@@ -642,7 +630,7 @@ def _not_0(text: str, minor: sp.Expr, point: Point) -> Comparison:
 
 
 def _bordering(
-    algebra: Algebra, text: str, vectors: Sequence[Sequence[sp.Expr]], columns: Sequence[int], more: Sequence[sp.Expr]
+    algebra: Algebra, text: str, vectors: Vectors, columns: Sequence[int], more: Sequence[sp.Expr]
 ) -> list[Statement]:
     """That a vector is in a span, where one minor is not 0: those that border it are 0; nothing if that is seen."""
     matrix = sp.Matrix([*map(list, vectors), list(more)])
@@ -685,10 +673,7 @@ def _vanish(text: str, what: Sequence[sp.Expr], algebra: Algebra) -> Equation:
 
 
 def _brackets(
-    algebra: Algebra,
-    names: Sequence[str],
-    vectors: Sequence[Sequence[sp.Expr]],
-    made: Iterable[tuple[str, Sequence[sp.Expr], Bracketed]],
+    algebra: Algebra, names: Sequence[str], vectors: Vectors, made: Iterable[tuple[str, Sequence[sp.Expr], Bracketed]]
 ) -> tuple[list[Statement], list[Statement | str]]:
     """That vectors are brackets, but for those that are 0, and that what these are made of are derivatives."""
     lemmas, derived = list[Statement](), list[Statement | str]()
@@ -715,10 +700,8 @@ def _volume(system: System, name: str) -> Made:
     field = [v.xreplace(of.allowed) for v in of.v] + of.solved
     own = [(e, unit) for x, e, unit in zip(variables, field, units, strict=True) if x in {*of.q, *kept.by}]
     spread = [of.rate(*one) for one in own]
-    logarithm = sum(
-        (power * of.in_motion(e) / e for e, (_, power) in zip(of.quantities, factors, strict=True)), sp.S.Zero
-    )
-    rate = logarithm.xreplace(of.allowed)
+    rates = (power * of.in_motion(e) / e for e, (_, power) in zip(of.quantities, factors, strict=True))
+    rate = sum(rates, sp.S.Zero).xreplace(of.allowed)
     text = f"the divergence in {', '.join(map(str, (*of.q, *kept.by)))} is less the rate of log({kept.density})"
     if not any(spread):  # then all derivatives say more
         change = [c if x in {*of.q, *kept.by} else sp.S.Zero for x, c in zip(variables, of.change, strict=True)]

@@ -63,10 +63,8 @@ def logarithm(
     changes = [[x - y for x, y in zip(step(one)[0], final, strict=True)] for one in near]
     slopes = sp.Matrix([[sp.diff(c, system.coordinates[i]) for i in bound] for c in system.holonomic])
     with flint_terms(count):
-        table = [
-            [fmpq_series([_at(change[i], count + k) for k in range(count)]) for change in changes]
-            for i in (*free, *(n + j for j in moving))
-        ]
+        at, kept = range(count, 2 * count), (*free, *(n + j for j in moving))
+        table = [[fmpq_series([_at(change[i], k) for k in at]) for change in changes] for i in kept]
         found = _log_determinant(table)
         for factor, power in {**density.as_powers_dict(), slopes.det(): -sp.S.One}.items():
             start, end = (series(exact.at([factor], at)[0]) for at in (exact.state, final))

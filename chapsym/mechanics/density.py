@@ -26,7 +26,7 @@ from flint import arb
 
 from chapsym.numbers.precisions import flint_bits
 
-from .algebra import Algebra, Point, adjugate, determinant, factors_of, size
+from .algebra import Algebra, Point, Vectors, adjugate, determinant, factors_of, size
 from .brackets import along, bracket_of, flag
 from .equations import OnShell
 from .series import evaluated
@@ -134,8 +134,7 @@ def _decided(system: System, digest: str) -> Volume:
     algebra, reduced = of.algebra, of.algebra.ring.reduced
     if not set(range(len(system.constraints), len(system.rows[:, 0]))) <= set(of.kept):
         raise BadSystem(f"{system.name}: volumes are for holonomic constraints that are independent of the others")
-    by = tuple(x for i, x in enumerate(v) if i not in of.bound)
-    if not by:
+    if not (by := tuple(x for i, x in enumerate(v) if i not in of.bound)):
         return Volume(sp.S.One)
     whole, (fields, spread, below, _) = reduced(determinant(of.square)), divergences(of)
     if below == 0:
@@ -155,9 +154,8 @@ def _decided(system: System, digest: str) -> Volume:
     if span.functions and may_differ:  # by components, of which there may be several
         raise BadSystem(f"{system.name}: the span of the brackets may differ between components of the configurations")
     if not (point := _refuted(fields, spread, span.growth[-1], algebra)):
-        raise BadSystem(
-            f"{system.name}: it is not decided whether a volume is kept: none is found, and no proof that there is none"
-        )
+        clause = "none is found, and no proof that there is none"
+        raise BadSystem(f"{system.name}: it is not decided whether a volume is kept: {clause}")
     at_rest = dict.fromkeys(v, sp.S.Zero)
     push = [algebra.into(e.xreplace(at_rest)) for e in system.push]
     drives = any(p.xreplace(at_rest) != 0 for p in system.momenta) or any(
@@ -182,17 +180,14 @@ def divergences(of: OnShell) -> tuple[list[list[sp.Expr]], list[sp.Expr], sp.Exp
     return [list(map(reduced, one)) for one in of.fields], list(map(reduced, formed)), below, formed
 
 
-def _density(
-    fields: Sequence[Sequence[sp.Expr]], spread: Sequence[sp.Expr], parts: Iterable[sp.Expr], algebra: Algebra
-) -> sp.Expr | None:
+def _density(fields: Vectors, spread: Sequence[sp.Expr], parts: Iterable[sp.Expr], algebra: Algebra) -> sp.Expr | None:
     """A product of powers of some polynomials and their factors whose derivative by each field is -θ times it."""
     parts = {p for e in parts for p in (e, *factors_of(e))}
     factors = sorted((p for p in parts if p.free_symbols), key=lambda p: (p.count_ops(), str(p)))
     rates = [[along(one, p, algebra) / p for p in factors] for one in fields]
     table = [[*own, aim] for own, aim in zip(rates, spread, strict=True)]
     rows = [row for _, at in _places(algebra) for row in at(table)]
-    scaled = [_scaled(row) for row in rows if all(x.is_finite() for x in row)]
-    if not scaled:
+    if not (scaled := [_scaled(row) for row in rows if all(x.is_finite() for x in row)]):
         return None
     numbers = np.array(scaled)
     sizes = np.linalg.norm(numbers[:, :-1], axis=0)
@@ -219,9 +214,7 @@ def _scaled(row: Sequence[arb]) -> list[float]:
         return [float(x / largest) if largest > 0 else 0.0 for x in row]
 
 
-def _refuted(
-    fields: Sequence[Sequence[sp.Expr]], spread: Sequence[sp.Expr], dimension: int, algebra: Algebra
-) -> Point | None:
+def _refuted(fields: Vectors, spread: Sequence[sp.Expr], dimension: int, algebra: Algebra) -> Point | None:
     """A point where brackets of the fields with -θ span more than a dimension, proved in balls, if one is found."""
     extended = [[*one, -aim] for one, aim in zip(fields, spread, strict=True)]
     span, newest = list(extended), list(extended)
@@ -237,13 +230,13 @@ def _refuted(
     return None
 
 
-def _places(algebra: Algebra) -> Iterator[tuple[Point, Callable[[Sequence[Sequence[sp.Expr]]], list[list[arb]]]]]:
+def _places(algebra: Algebra) -> Iterator[tuple[Point, Callable[[Vectors], list[list[arb]]]]]:
     """Exact points, and what gives rows of expressions there, in balls; those that divide by 0 there are not finite."""
 
     def ball(above: int, below: int) -> arb:
         return arb(int(above)) / int(below)
 
-    def at(point: Point, rows: Sequence[Sequence[sp.Expr]]) -> list[list[arb]]:
+    def at(point: Point, rows: Vectors) -> list[list[arb]]:
         with flint_bits(BITS):
             values = {x: ball(*(y**2).as_numer_denom()).sqrt() * int(sp.sign(y)) for x, y in point.items()}
             found = iter(evaluated([e for row in rows for e in row], values, ball))
@@ -258,8 +251,7 @@ def _rank(rows: list[list[arb]]) -> int:
     """At least that of matrices in balls: how many pivots exclude 0."""
     found = 0
     for column in range(len(rows[0])):
-        rest = [row for row in rows[found:] if not row[column].contains(0)]
-        if rest:
+        if rest := [row for row in rows[found:] if not row[column].contains(0)]:
             pivot = max(rest, key=lambda row: float(abs(row[column]).lower()))
             others = [row for row in rows[found:] if row is not pivot]
             reduced = [[x - row[column] / pivot[column] * y for x, y in zip(row, pivot, strict=True)] for row in others]

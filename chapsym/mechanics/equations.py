@@ -214,9 +214,8 @@ def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr])
     for point in algebra.points:
         found = value.xreplace(point)
         rest = {x: e.xreplace(point) for x, e in bound.items()}
-        if not any(x.has(sp.zoo, sp.nan) or x.free_symbols for x in (found, *rest.values())) and pivots(
-            sp.Matrix([found])
-        ):
+        numbers = found, *rest.values()
+        if not any(x.has(sp.zoo, sp.nan) or x.free_symbols for x in numbers) and pivots(sp.Matrix([found])):
             state = {x: v for x, v in point.items() if x not in rest} | rest
             return algebra.shown({x: sp.radsimp(v) for x, v in state.items()}), str(sp.radsimp(found))
     raise BadSystem(f"{algebra.system.name}: equality is not proved, and no exact state is found that refutes it")

@@ -42,8 +42,6 @@ LOOKED, LOOKED_FURTHER, BEYOND = 6, 7, 2
 #: The same for a volume, at first, and if these show nothing.
 LOOKED_AT_VOLUMES = 4, 7
 VOLUMES = "the volume", "a smooth volume"
-
-
 Named = tuple[sp.Matrix, list[fmpq]]
 
 
@@ -121,6 +119,7 @@ Powers = tuple[sp.Expr, sp.Expr, sp.Expr]
 T = TypeVar("T")
 #: Expressions, with how many of their first coefficients in the length of a step are combined; and symbols for ends.
 Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
+Show = Callable[[Callable[..., sp.Expr]], Shown]
 
 
 @dataclass(frozen=True)
@@ -453,9 +452,8 @@ class Judged:
         stepped, (first, there, z, then) = self.stepped, self.forth
         seen = [stepped.of(stepped.seen, at, of, self.h) for at, of in ((first, z), (there, then))]
         read, symbols = self.exact.read([quantity]), (*self.exact.symbols, STEP)
-        before, after, moved = (
-            evaluated(read, dict(zip(symbols, (*x, self.h), strict=True)))[0] for x in (*seen, self.exact.moved)
-        )
+        values = (dict(zip(symbols, (*x, self.h), strict=True)) for x in (*seen, self.exact.moved))
+        before, after, moved = (evaluated(read, one)[0] for one in values)
         if not quantity.has(STEP) and self.wrong("", ("", moved, _at(moved, 0))):
             return Verdict("measured", "the exact motion does not keep it")
         wrong = self.wrong("it changes", ("in a step", after, before))
@@ -520,11 +518,7 @@ class Judged:
         return kept
 
     def spanned(
-        self,
-        aims: Iterable[sp.Expr],
-        known: Iterable[sp.Expr],
-        on: bool = False,
-        shown: Callable[[Callable[..., sp.Expr]], Shown] | None = None,
+        self, aims: Iterable[sp.Expr], known: Iterable[sp.Expr], on: bool = False, shown: Show | None = None
     ) -> bool:
         """Whether each of some expressions is a combination of known ones, with rational numbers.
 

@@ -166,9 +166,8 @@ def own(system: System) -> Scheme:
     u, multipliers = of.symbols("u", of.n), of.symbols("lam", of.m)
     end = of.q + STEP * u
     there = {after(x): e for x, e in zip(system.coordinates, end, strict=True)}
-    first, last = (
-        sp.Matrix([_divided(sp.diff(action, x).xreplace(there)) for x in ends]) for ends in (system.coordinates, there)
-    )
+    both = system.coordinates, there
+    first, last = (sp.Matrix([_divided(sp.diff(action, x).xreplace(there)) for x in ends]) for ends in both)
     kept = [_divided(c.xreplace(there)) for c in system.discrete.constraints]
     held = [of.at(sp.Matrix([c]), end)[0] for c in system.holonomic]
     half = STEP * of.v / 2
@@ -272,31 +271,22 @@ def explicit(stages: Sequence[Sequence[str]], system: System) -> Scheme:
     )  # fmt: skip
 
 
-def _accelerated(
-    of: _Parts, a: sp.Matrix, multipliers: sp.Matrix, place: sp.Matrix, velocity: sp.Matrix
-) -> list[sp.Expr]:
+def _accelerated(of: _Parts, a: sp.Matrix, lam: sp.Matrix, place: sp.Matrix, velocity: sp.Matrix) -> list[sp.Expr]:
     matrix, right = of.system.equations
-    solved = of.at(matrix, place) * sp.Matrix([*a, *multipliers])
-    return list(solved - of.at(right, place, velocity))
+    return list(of.at(matrix, place) * sp.Matrix([*a, *lam]) - of.at(right, place, velocity))
 
 
 METHODS: dict[str, Method] = {
     one.name: one
     for one in (
-        Method(
-            "dla", "discrete Lagrange-d'Alembert, middle", "J. Cortés, S. Martínez, Nonlinearity 14 (2001) 1365",
-            partial(discrete, sp.S.Half),
-        ),
+        Method("dla", "discrete Lagrange-d'Alembert, middle", "J. Cortés, S. Martínez, Nonlinearity 14 (2001) 1365",
+               partial(discrete, sp.S.Half)),
         Method("own", "discrete Lagrange-d'Alembert, of one's own", "the same", own),
         Method("dla-left", "discrete Lagrange-d'Alembert, left end", "the same", partial(discrete, sp.S.Zero)),
-        Method(
-            "gni", "geometric nonholonomic integrator",
-            "S. Ferraro, D. Iglesias, D. Martín de Diego, Nonlinearity 21 (2008) 1911", geometric,
-        ),
-        Method(
-            "leapfrog", "nonholonomic leapfrog", "R. McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283, (4.18)",
-            leapfrog,
-        ),
+        Method("gni", "geometric nonholonomic integrator",
+               "S. Ferraro, D. Iglesias, D. Martín de Diego, Nonlinearity 21 (2008) 1911", geometric),
+        Method("leapfrog", "nonholonomic leapfrog",
+               "R. McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283, (4.18)", leapfrog),
         Method("spark", "SPARK, Lobatto of two stages", "L. O. Jay, BIT 43 (2003) 93", lobatto),
         Method("midpoint", "implicit midpoint rule", "of the equations of motion", midpoint),
         Method("rk4", "Runge-Kutta of order 4", "of the equations of motion",

@@ -132,10 +132,8 @@ class Sets(Steps):
             inverse, rest = frame.inv(), arb_mat(size, 1, [x - c for x, c in zip(reached, point, strict=True)])
         except (NotSolved, ZeroDivisionError, np.linalg.LinAlgError):
             widest = max(float(x.rad()) for x in at)
-            raise NotSolved(
-                f"has an enclosure that has grown too wide, to a radius of {widest:.1g}: take more bits than "
-                f"Enclosure({self.level.bits}), or fewer steps"
-            ) from None
+            more = f"take more bits than Enclosure({self.level.bits}), or fewer steps"
+            raise NotSolved(f"has an enclosure that has grown too wide, to a radius of {widest:.1g}: {more}") from None
         return self.of("seen", root, at), (point, frame, (inverse * turned) * box + inverse * rest)
 
     def _moved(self, root: Vector, rows: Sequence[np.ndarray]) -> list[np.ndarray]:
@@ -187,8 +185,7 @@ def differentiated(
             rates[name, x] = of
         return rates[name, x]
 
-    slope = [letters.derivative(e, x, rate) for e in results for x in unknowns]
-    return done, slope
+    return done, [letters.derivative(e, x, rate) for e in results for x in unknowns]
 
 
 def needed(terms: Mapping[sp.Symbol, sp.Expr], results: Sequence[sp.Expr]) -> Terms:
@@ -470,9 +467,8 @@ class Runner:
                 raise ValueError
             return found
         except Exception:  # of numbers of any kind
-            raise BadSystem(
-                f"the start must be {len(self.scheme.state)} numbers, as `final` has them, not {brief(start)}"
-            ) from None
+            wanted = f"{len(self.scheme.state)} numbers, as `final` has them"
+            raise BadSystem(f"the start must be {wanted}, not {brief(start)}") from None
 
     def _measured(self, place: np.ndarray, velocity: np.ndarray, fixed: np.ndarray) -> list[list[np.ndarray]]:
         """The energy, what the constraints on velocities and on places set to 0, and the integrals."""
@@ -519,9 +515,8 @@ class Runner:
         """Whether the derivatives of the equations of the first step are singular at its guess."""
         state, unknowns = (self._numbers(part, q, v) for part in (self.scheme.start, self.scheme.guess))
         try:
-            slope = np.array(self.functions["slope"](*map(float, (*unknowns, *state, *fixed)))).reshape(
-                len(unknowns), -1
-            )
+            found = self.functions["slope"](*map(float, (*unknowns, *state, *fixed)))
+            slope = np.array(found).reshape(len(unknowns), -1)
         except (ArithmeticError, ValueError):  # they have no values there
             return False
         return bool(np.isfinite(slope).all() and np.linalg.matrix_rank(slope) < len(unknowns))
@@ -606,9 +601,8 @@ def _in_floats(symbols: tuple[sp.Symbol, ...], expressions: tuple[sp.Expr, ...])
 
 @cache
 def _say_once(why: str) -> None:
-    logging.getLogger("chapsym").warning(
-        "plain Python takes the steps, slower than C: cc is missing or failed: %s", why
-    )
+    text = "plain Python takes the steps, slower than C: cc is missing or failed: %s"
+    logging.getLogger("chapsym").warning(text, why)
 
 
 def moved(

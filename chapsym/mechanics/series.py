@@ -274,10 +274,9 @@ class Stepped:
         self.shift = [0 if any(_at(column[i], 2) != 0 for column in columns) else 1 for i in range(size)]
         slope = inverse(fmpq_mat([[_at(column[i], 2 + s) for column in columns] for i, s in enumerate(self.shift)]))
         for _ in range(ctx.cap + 1):
-            left = list(zip(self.of(self.residual, state, unknowns, length), self.shift, strict=True))
-            unknowns = _less(
-                unknowns, slope, [fmpq_series([_at(x, k + s) for k in range(ctx.cap - s)]) for x, s in left]
-            )
+            left = zip(self.of(self.residual, state, unknowns, length), self.shift, strict=True)
+            short = [fmpq_series([_at(x, k + s) for k in range(ctx.cap - s)]) for x, s in left]
+            unknowns = _less(unknowns, slope, short)
         if any(_at(x, k) != 0 for x in self.of(self.residual, state, unknowns, length) for k in range(ctx.cap - 1)):
             raise Undecided("the equations of a step are not solved near the exact state")
         return unknowns

@@ -285,10 +285,8 @@ class System:
         if not is_a(discrete.integrals, Mapping) or not all(is_a(x, str) for x in discrete.integrals):
             raise BadSystem(f"{self.name}: integrals of discrete must be given as {{name: quantity}}")
         names = [*discrete.integrals]
-        if taken := {"the energy", *self.integrals}.intersection(names):
-            raise BadSystem(
-                f"{self.name}: {min(taken)} is a quantity of the system: give the discrete one another name"
-            )
+        if both := {"the energy", *self.integrals}.intersection(names):
+            raise BadSystem(f"{self.name}: {min(both)} is a quantity of the system: give the discrete one another name")
         given = *given, *discrete.integrals.values()
         action, *rules = (expression(e, f"{self.name}: the discretization") for e in given)
         if twice := {after(x) for x in self.coordinates} & {*self.coordinates, *self.parameters}:
@@ -418,10 +416,8 @@ class System:
         if len(rows) and free:
             v[free] += np.linalg.lstsq(rows[:, free], -(rows @ v + offsets), rcond=None)[0]
         if len(rows) and not (worst := np.abs(rows @ v + offsets).max()) <= NEAR:
-            raise BadSystem(
-                f"{self.name}: the velocities of the start are {worst:.3g} off the constraints; leave out those that "
-                "the constraints determine"
-            )
+            mended = "leave out those that the constraints determine"
+            raise BadSystem(f"{self.name}: the velocities of the start are {worst:.3g} off the constraints; {mended}")
         return q, v
 
 

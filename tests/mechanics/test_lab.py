@@ -22,9 +22,8 @@ def spring(tmp_path):
     """A system of one coordinate, of which all verdicts are had at once."""
     file = tmp_path / "spring.py"
     head = "from sympy import symbols\nfrom chapsym.mechanics import System, dot\n(x,) = symbols('x,')\n"
-    file.write_text(
-        f"{head}SYSTEM = System('spring', [x], (dot(x) ** 2 - x**2) / 2, start={{x: 1}})\n", encoding="utf-8"
-    )
+    text = f"{head}SYSTEM = System('spring', [x], (dot(x) ** 2 - x**2) / 2, start={{x: 1}})\n"
+    file.write_text(text, encoding="utf-8")
     return file
 
 
@@ -131,9 +130,8 @@ def test_verdicts_that_were_not_asked_for_are_added_and_other_lengths_of_a_step_
 def test_a_quantity_that_is_not_defined_is_one_sentence(tmp_path):
     text = FILE.read_text(encoding="utf-8").replace("coordinates=", "integrals={'r': sqrt(x - 100)}, coordinates=")
     (tmp_path / "root.py").write_text(text.replace("import sym", "import sqrt, sym"), encoding="utf-8")
-    done = chapsym(
-        "lab", tmp_path / "root.py", "--method", "dla", "--steps", 20, "--no-flags", "-o", tmp_path / "x.json"
-    )
+    few = "--method", "dla", "--steps", 20, "--no-flags"
+    done = chapsym("lab", tmp_path / "root.py", *few, "-o", tmp_path / "x.json")
     assert "dla: a quantity is not defined on the motion" in done.stdout
     assert json.loads((tmp_path / "x.json").read_text(encoding="utf-8"))["cells"][0]["energy"] is None
 
@@ -185,9 +183,8 @@ def test_what_is_no_file_is_one_sentence(tmp_path):
 def test_two_systems_of_one_name_and_a_start_off_the_constraints_are_one_sentence(tmp_path):
     text = FILE.read_text(encoding="utf-8")
     (tmp_path / "other.py").write_text(text, encoding="utf-8")
-    (tmp_path / "off.py").write_text(
-        text.replace("vy:", "vz: 3, vy:").replace("holonomic par", "par"), encoding="utf-8"
-    )
+    off = text.replace("vy:", "vz: 3, vy:").replace("holonomic par", "par")
+    (tmp_path / "off.py").write_text(off, encoding="utf-8")
     done = chapsym("lab", tmp_path / "off.py", FILE, "--method", "dla", "--steps", 10, "--no-flags")
     assert "off the constraints; leave out those" in done.stderr
     assert (done.returncode, done.stderr.count("\n"), done.stdout.count("\n")) == (2, 1, 3)  # the other is measured

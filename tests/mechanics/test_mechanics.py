@@ -14,33 +14,13 @@ from systems import ANYWHERE, FREE, SYMMETRIC, SYSTEMS, a, example, k, particle,
 
 import chapsym
 from chapsym.generated import momentum
-from chapsym.mechanics import (
-    METHODS,
-    BadSystem,
-    Discrete,
-    NotSolved,
-    Quaternion,
-    Runner,
-    System,
-    Turned,
-    after,
-    agree,
-    brackets,
-    certified,
-    conserved,
-    density,
-    dot,
-    flag,
-    loaded,
-    measured,
-    motion,
-    moved,
-    of_kane,
-    rate,
-    verdicts,
-    volume,
-)
+from chapsym.mechanics import METHODS, Quaternion, Turned, brackets, certified, density, flag, measured, motion
+from chapsym.mechanics.density import volume
+from chapsym.mechanics.equations import agree, conserved, of_kane
+from chapsym.mechanics.judged import verdicts
 from chapsym.mechanics.lab import keeps
+from chapsym.mechanics.motion import NotSolved, Runner, moved
+from chapsym.mechanics.system import BadSystem, Discrete, System, after, dot, loaded, rate
 
 
 @cache
@@ -227,9 +207,8 @@ def test_what_is_too_long_to_be_decided_is_said(monkeypatch):
 
 
 def test_only_constraints_that_are_there_are_proved():
-    sphere = System(
-        "sphere", (x, y, z), FREE - z, holonomic=[x**2 + y**2 + z**2 - 1], start={x: "3/5", z: "-4/5", vy: 1}
-    )
+    start = {x: "3/5", z: "-4/5", vy: 1}
+    sphere = System("sphere", (x, y, z), FREE - z, holonomic=[x**2 + y**2 + z**2 - 1], start=start)
     cell = measured(sphere, "rk4", 200)
     assert not cell.kept
     assert cell.places > 1e-6

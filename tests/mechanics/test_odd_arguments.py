@@ -9,29 +9,9 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from chapsym.mechanics import (
-    METHODS,
-    STEP,
-    BadSystem,
-    Discrete,
-    Quaternion,
-    System,
-    Turned,
-    after,
-    agree,
-    certified,
-    conserved,
-    dot,
-    flag,
-    in_symbols,
-    loaded,
-    measured,
-    moved,
-    of_kane,
-    rate,
-    verdicts,
-    volume,
-)
+from chapsym.mechanics import METHODS, Quaternion, Turned, certified, flag, measured, moved, verdicts, volume
+from chapsym.mechanics.equations import agree, conserved, in_symbols, of_kane
+from chapsym.mechanics.system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
 
 x, y = sp.symbols("x y")
 ENERGY, RULE = (dot(x) ** 2 + dot(y) ** 2) / 2, dot(y) - dot(x)

@@ -171,9 +171,8 @@ def missed(system, method, point, of, h):
     given = {name: float(sp.Rational(value)) for name, value in point.items()}
     angles = {x: np.arctan2(given[f"sin({x})"], given[f"cos({x})"]) for x in symbols if f"sin({x})" in given}
     state = np.array([angles[x] if x in angles else given[str(x)] for x in symbols])
-    runner = Runner(
-        dataclasses.replace(system, start=dict(zip(symbols, map(float, state), strict=True))), method, False
-    )
+    start = dict(zip(symbols, map(float, state), strict=True))
+    runner = Runner(dataclasses.replace(system, start=start), method, False)
     if of == "it changes in a step by":
         return np.diff(runner.march(2, h).energy)[0]
     there = runner.march(1, h).final
@@ -285,9 +284,8 @@ def test_the_map_of_the_paper_is_proved_and_another_discrete_momentum_or_constra
     own = ball.discrete
     radius = next(s for s in ball.parameters if s.name == "radius")
     halved = {name: e.xreplace({radius: radius / 2}) for name, e in own.integrals.items()}
-    forward = [
-        e.xreplace({radius: radius * (1 + x)}) for e, x in zip(own.constraints, ball.coordinates[:2], strict=True)
-    ]
+    pairs = zip(own.constraints, ball.coordinates[:2], strict=True)
+    forward = [e.xreplace({radius: radius * (1 + x)}) for e, x in pairs]
 
     def made(**changes):
         changed = dataclasses.replace(ball, discrete=dataclasses.replace(own, **changes))

@@ -42,9 +42,8 @@ def divergence(system, found, density):
         at = [place[s] for s in q]
         rows = of[2](at, [0] * len(q))
         bound = [i for i in range(len(q)) if v[i] not in by]
-        known = mp.matrix(
-            [sum(rows[r, i] * place[v[i]] for i in range(len(q)) if v[i] in by) for r in range(rows.rows)]
-        )
+        free = [i for i in range(len(q)) if v[i] in by]
+        known = mp.matrix([sum(rows[r, i] * place[v[i]] for i in free) for r in range(rows.rows)])
         solved = mp.lu_solve(mp.matrix([[rows[r, i] for i in bound] for r in range(rows.rows)]), -known)
         place |= {v[i]: s for i, s in zip(bound, solved, strict=True)}
         return at, [place[s] for s in v]
