@@ -1,9 +1,8 @@
 """`chapsym bench`: what the map costs, compared with what a user would take instead, measured in one process."""
 
-from collections.abc import Callable
 from importlib import import_module
 
-from .harness import Contender, NotComparable, Timing
+from .harness import Contender, NotComparable, Say, Timing
 from .results import Curve, Reached, Result
 
 __all__ = ["SECTIONS", "Contender", "Curve", "NotComparable", "Reached", "Result", "Timing", "run"]
@@ -21,7 +20,7 @@ SECTIONS = DEFAULT = (
 DRAWN = ("work-precision", "long")
 
 
-def run(section: str, quick: bool, on_round: Callable[[str], None] = lambda text: None, **own: object) -> Result:
+def run(section: str, quick: bool, on_round: Say = lambda text: None, **own: object) -> Result:
     """Measures one section; `quick` takes seconds.  Raises NotComparable where two sides disagree.
 
     own: of the section `trajectory`, the ball and its start, as `trajectory.Start`.

@@ -9,7 +9,7 @@ import numpy as np
 from chapsym.dynamics.levels import frames
 
 from . import peers
-from .harness import Contender, cores, interleaved
+from .harness import Contender, Say, cores, interleaved
 from .results import Reached, Result, beside
 from .trajectory import CHAPSYM, agreement, with_chapsym
 
@@ -34,7 +34,7 @@ def states(count: int, epsilon: float = EPSILON) -> State:
 SIDES = {CHAPSYM: with_chapsym, COLUMNS: peers.by_columns}
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
     """Times 10⁴ balls (quick: 2000) on one core and on two; every side is checked against chapsym before."""
     balls, steps, rounds = (2_000, 100, 3) if quick else (10_000, 3000, 7)
     state = states(balls)

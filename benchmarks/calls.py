@@ -1,7 +1,6 @@
 """Short calls, warm, one core: microseconds of a call of 1, 10 and 1000 steps, by a function and by a `Stepper`."""
 
 import time
-from collections.abc import Callable
 from functools import partial
 from itertools import product
 
@@ -9,7 +8,7 @@ import numpy as np
 
 import chapsym
 
-from .harness import Contender, NotComparable, Run, cores, interleaved
+from .harness import Contender, NotComparable, Run, Say, cores, interleaved
 from .results import Reached, Result, beside
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
@@ -66,7 +65,7 @@ def compare(steps: int, contact: bool) -> None:
             raise NotComparable(f"{FRAMES} differs from {PLAIN} after {steps} steps, in the {name}")
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
     """Times calls of each length, with the contact point and without."""
     seconds, rounds = (0.005, 5) if quick else (0.05, 21)
     rows, reach = [], []

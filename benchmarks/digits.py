@@ -1,6 +1,6 @@
 """Many digits: a step of one ball in `Digits`, and Newton's iteration in the Gibbs vector on mpmath's numbers."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -8,7 +8,7 @@ from mpmath import mp, mpf
 
 import chapsym
 
-from .harness import NotComparable
+from .harness import NotComparable, Say
 from .peers import MOST, SETTLED, moments_of, newton_in_u, turned
 from .results import Reached, Result, beside, timed
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
@@ -56,7 +56,7 @@ def difference(digits: int, steps: int) -> float:
     return last
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
     """Times runs of 20 steps."""
     steps, rounds = 20, 3 if quick else 15
     rows, reach = [], []

@@ -10,7 +10,7 @@ from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.branch_n import small_rotation
 from chapsym.files import Data
 
-from .harness import NotComparable
+from .harness import NotComparable, Say
 from .results import Reached, Result, beside, timed
 
 CONTINUED = "continued"
@@ -52,7 +52,7 @@ def continued(n: int, steps: int, balls: int = 1) -> np.ndarray:
     return K[0]
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
     """Times one ball, one with its contact point, and a batch, on one core; the ends are compared before."""
     rounds, rows = 3 if quick else 9, list[Data]()
     steps = STEPS // 10 if quick else STEPS

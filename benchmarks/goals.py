@@ -16,7 +16,7 @@ from . import problems
 from .batch import states
 from .calls import repeated
 from .continuous import LANES
-from .harness import Contender, cores, installed, interleaved
+from .harness import Contender, Say, cores, installed, interleaved
 from .problems import Runs, States
 from .results import Reached, Result
 
@@ -42,7 +42,6 @@ FIRST = {
     "chapsym.trajectory_n(chapsym.BallN((1.0, 2.0, 0.5, 3.0), 3.0), M - M.T, (0, 0, 0, 1.0), 1000)",
 }
 PROGRAM = "-m", "chapsym"
-Say = Callable[[str], None]
 Fresh = tuple[tuple[str, ...], tuple[str, ...], float]
 
 

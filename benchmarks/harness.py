@@ -11,8 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-#: A call that is timed.
+#: A call that is timed, and what is called with sentences on the progress.
 Run = Callable[[], object]
+Say = Callable[[str], None]
 
 
 class NotComparable(ArithmeticError):

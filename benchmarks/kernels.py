@@ -21,6 +21,8 @@ from chapsym.dynamics.ball import Floats
 from chapsym.files import Data
 from chapsym.generated import TABLE, gibbs_newton, momentum, tangent_jacobian, vertical_square
 
+from .harness import Say
+
 #: Digits of the reference for the errors.
 CONTEXT = MPContext()
 CONTEXT.dps = 90
@@ -164,7 +166,7 @@ class Kernels:
 
     title = "kernels: errors in ulps"
 
-    def __init__(self, quick: bool, say: Callable[[str], None], kernels: Sequence[str] = tuple(TABLE)) -> None:
+    def __init__(self, quick: bool, say: Say, kernels: Sequence[str] = tuple(TABLE)) -> None:
         texts = json.loads(MANIFEST.read_text(encoding="utf-8"))["kernels"]
         self.rows: list[dict[str, Any]] = []
         for name in kernels:

@@ -3,12 +3,11 @@
 A sum of n independent roundings grows like √n (Brouwer's law): slope 1/2 in the figure.  A bias grows like n.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 
 import chapsym
 
+from .harness import Say
 from .results import Curve, Reached, Result
 
 EPSILONS = (0.05, 0.4)
@@ -51,8 +50,7 @@ def octaves(change: np.ndarray, every: int) -> tuple[np.ndarray, np.ndarray]:
     Means, as a state that is rounded to float64 shows its integrals with a rounding of their own.
     """
     starts = 2 ** np.arange(int(np.log2(len(change) - 1)))
-    means = [np.mean(change[n : 2 * n]) for n in starts]
-    return (3 * starts - 1) / 2 * every, np.array(means, dtype=float)
+    return (3 * starts - 1) / 2 * every, np.array([np.mean(change[n : 2 * n]) for n in starts], dtype=float)
 
 
 def slope(n: np.ndarray, rms: np.ndarray) -> float:
@@ -72,7 +70,7 @@ def balls(count: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray, float]]:
     return found
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
     """The growth of the drifts over 10⁸ steps of 8 balls (quick: 10⁶), and their slopes."""
     steps, count = QUICK if quick else FULL
     chosen = balls(count)

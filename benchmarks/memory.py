@@ -3,13 +3,13 @@
 import subprocess
 import sys
 import tracemalloc
-from collections.abc import Callable
 from contextlib import suppress
 
 import numpy as np
 
 import chapsym
 
+from .harness import Say
 from .results import Reached, Result
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
@@ -59,13 +59,10 @@ def peak_of_a_trajectory(steps: int, every: int) -> int:
 
 def peak_of_a_batch(balls: int, steps: int) -> int:
     """The largest resident size of a fresh process that runs a batch, in bytes."""
-    done = subprocess.run(
-        [sys.executable, "-c", CHILD, str(balls), str(steps)], capture_output=True, text=True, check=True
-    )
-    return int(done.stdout)
+    return int(subprocess.check_output([sys.executable, "-c", CHILD, str(balls), str(steps)], text=True))
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
     """The peaks of a long trajectory that keeps few states, and of 10⁶ balls (quick: 10⁵) in a fresh process."""
     steps, balls = (1_000_000, 100_000) if quick else (10_000_000, 1_000_000)
     reach = []

@@ -10,7 +10,7 @@ import chapsym
 from chapsym.dynamics import TopMotion
 from chapsym.files import Data
 
-from .harness import NotComparable
+from .harness import NotComparable, Say
 from .results import Reached, Result, ratio_columns, timed
 
 FULL = "full model"
@@ -69,7 +69,7 @@ def pairs() -> list[Pair]:
     ]  # fmt: skip
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
     """Times each reduction and the full model, all frames and 1 of 1000; their ends are compared before."""
     rounds = 5 if quick else 15
     rows: list[Data] = []
@@ -84,7 +84,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
     return Result("the reductions and the full model, one core", rows, reach=reach)
 
 
-def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Callable[[str], None]) -> Data:
+def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Say) -> Data:
     ends = [side(steps, every) for side in (pair.reduced, pair.full)]
     apart = float(np.abs(ends[0] - ends[1]).max() / EPSILON)
     if not apart <= ROUNDING * steps**1.5:

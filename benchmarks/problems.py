@@ -186,10 +186,8 @@ def taylor_batch(problems: list[Problem], tolerance: float) -> Callable[[], Stat
     """heyoka.py's states at the end, `LANES` balls at once, as a function of nothing."""
     integrator, count = _integrator(tolerance, "batch"), len(problems)
     whole = [problems[i % count] for i in range(-(-count // LANES) * LANES)]
-    starts = [
-        [np.transpose(x) for x in zip(*map(_start, whole[i : i + LANES]), strict=True)]
-        for i in range(0, len(whole), LANES)
-    ]
+    parts = (whole[i : i + LANES] for i in range(0, len(whole), LANES))
+    starts = [[np.transpose(x) for x in zip(*map(_start, part), strict=True)] for part in parts]
 
     def run() -> States:
         ends = []

@@ -1,11 +1,11 @@
 """The results of a section of the benchmarks: a table, the figures to reach, and the lines of a figure."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 
 from chapsym.files import Data
 
-from .harness import Contender, Run, Timing, cores, interleaved
+from .harness import Contender, Run, Say, Timing, cores, interleaved
 
 #: A unit of time, of seconds.
 UNITS = {"ns": 1e9, "µs": 1e6, "ms": 1e3}
@@ -79,9 +79,7 @@ def ratio_columns(timing: Timing, reference: Timing, label: str) -> Data:
     return {f"to {label}": middle, "quartiles": [lower, upper]}
 
 
-def timed(
-    sides: Mapping[str, tuple[Run, int]], rounds: int, say: Callable[[str], None], what: str
-) -> dict[str, Timing]:
+def timed(sides: Mapping[str, tuple[Run, int]], rounds: int, say: Say, what: str) -> dict[str, Timing]:
     """Times sides, each with the units of its work, together on one core; `what`: of them, for the progress."""
     contenders = [Contender(name, run, work) for name, (run, work) in sides.items()]
     with cores(1):
@@ -89,12 +87,7 @@ def timed(
 
 
 def beside(
-    timings: Mapping[str, Timing],
-    home: str,
-    unit: str,
-    columns: Mapping[str, object],
-    differs: object = None,
-    label: str = "",
+    timings: Mapping[str, Timing], home: str, unit: str, columns: Data, differs: object = None, label: str = ""
 ) -> list[Data]:
     """The rows of a table: each side's time in a unit, and its ratio to one of them.
 

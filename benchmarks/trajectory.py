@@ -13,7 +13,7 @@ from chapsym.dynamics.levels.proved import lengths
 from chapsym.files import Data
 
 from . import peers
-from .harness import NotComparable
+from .harness import NotComparable, Say
 from .results import Reached, Result, beside, timed
 
 #: The ball of the measurements in the project's notes, and a generic state of it: 𝒦/ε and γ.
@@ -51,20 +51,18 @@ def agreement(sides: Mapping[str, Callable[[], Ends]], momentum: np.ndarray, bou
     ends = {name: [np.asarray(x) for x in side()] for name, side in sides.items()}
     size = np.linalg.norm(momentum, axis=-1, keepdims=True)
     home = ends[CHAPSYM]
-    differences = {
-        name: float(max(abs((K - home[0]) / size).max(), abs(g - home[1]).max())) for name, (K, g) in ends.items()
-    }
-    for name, difference in differences.items():
+    apart = {name: float(max(abs((K - home[0]) / size).max(), abs(g - home[1]).max())) for name, (K, g) in ends.items()}
+    for name, difference in apart.items():
         if not difference <= bound:
             raise NotComparable(f"{name} differs from chapsym by {difference:.1e}, more than roundings: {bound:.1e}")
-    return differences
+    return apart
 
 
 #: A ball and its start: J, D, 𝒦, γ, in exact numbers or floats.
 Start = tuple[Any, Any, Any, Any]
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None, own: Start | None = None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None, own: Start | None = None) -> Result:
     """Times one trajectory for each ε, or of one's own ball; every side is checked against chapsym before."""
     steps, rounds = (50_000, 5) if quick else (2_000_000, 21)
     rows: list[Data] = []
@@ -72,12 +70,10 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None, ow
     starts = [(MASS_TENSOR, D, epsilon * MOMENTUM, GAMMA) for epsilon in EPSILONS] if own is None else [own]
     for start in starts:
         J, contact, K, g = map(numbers, start, ("mass_tensor", "D", "momentum", "gamma"))
-        epsilon, moment = float(lengths(K)), float(contact)
-        differ = agreement(
-            {name: partial(side, K, g, J, moment, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT
-        )
+        epsilon, of = float(lengths(K)), (K, g, J, float(contact))
+        differ = agreement({name: partial(side, *of, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT)
         counts = {name: max(20, steps // share) for name, (_, share) in SIDES.items()}
-        sides = {name: (partial(SIDES[name][0], K, g, J, moment, count), count) for name, count in counts.items()}
+        sides = {name: (partial(SIDES[name][0], *of, count), count) for name, count in counts.items()}
         timings = timed(sides, rounds, on_round, "one trajectory")
         rows += beside(timings, CHAPSYM, "ns a step", {"ε": epsilon}, differ)
         if own is None and not reach:

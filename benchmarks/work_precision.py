@@ -14,7 +14,7 @@ from chapsym import generated
 from chapsym.files import Data
 
 from . import continuous
-from .harness import installed
+from .harness import Say, installed
 from .results import Curve, Reached, Result, timed
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
@@ -111,7 +111,7 @@ def integrals(y: np.ndarray) -> np.ndarray:
     return np.array([height, square, generated.energy(*y, *continuous.BALL)])
 
 
-def swept(sweep: list[Method], exact: np.ndarray, rounds: int, on_round: Callable[[str], None]) -> Points:
+def swept(sweep: list[Method], exact: np.ndarray, rounds: int, on_round: Say) -> Points:
     """Every control of every method, interleaved on one core; a step that is too long to be taken is left out."""
     sides, ends = {}, {}
     for method, control in [(one, control) for one in sweep for control in one.controls]:
@@ -142,7 +142,7 @@ def time_to(points: list[Point], target: float) -> float | None:
     return min(times, default=None)
 
 
-def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
+def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
     """The sweep of all methods; ratios are to heyoka.py, for one ball or, of a batch, for eight."""
     on_round("work-precision: the reference solution")
     exact = continuous.reference(STATE, END)

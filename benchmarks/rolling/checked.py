@@ -74,8 +74,7 @@ def main(names: list[str]) -> None:
             rows.append(judged(scene.stem))
             print(rows[-1], end="", file=sys.stderr)
     if not names:
-        text = HEAD.format(radians=RADIANS, digits=DIGITS) + "".join(rows)
-        files.write_text(OUTPUT, text)
+        files.write_text(OUTPUT, HEAD.format(radians=RADIANS, digits=DIGITS) + "".join(rows))
 
 
 if __name__ == "__main__":

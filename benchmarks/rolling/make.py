@@ -86,10 +86,8 @@ def table(case: files.Data) -> str:
     rows = csv.writer(stream, lineterminator="\n")
     rows.writerow(COLUMNS.split())
     for frame in case["frames"]:
-        (x, y), q, spin = (
-            [mpmath.mpf(middle) for middle, _ in frame.get(part, [(0, 0)] * 2)]
-            for part in ("contact", "attitude", "omega")
-        )
+        parts = (frame.get(part, [(0, 0)] * 2) for part in ("contact", "attitude", "omega"))
+        (x, y), q, spin = ([mpmath.mpf(middle) for middle, _ in part] for part in parts)
         w = generated.rotate(*q, *spin)
         velocity = [radius * w[1], -radius * w[0], mpmath.mpf(0)]
         if "velocity" in frame:  # it slides
@@ -105,9 +103,7 @@ def body(case: files.Data, form: str) -> str:
     tensor = dict.fromkeys(("ixy", "ixz", "iyz"), "0") | dict(zip(("ixx", "iyy", "izz"), ball["inertia"], strict=True))
     place = " ".join(ball.get("centre_of_mass", "000"))
     origin = f'\n      <origin xyz="{place}"/>' if "centre_of_mass" in ball else ""
-    return BODIES[form].format(
-        name=case["case"], mass=ball["mass"], radius=ball["radius"], place=place, origin=origin, **tensor
-    )
+    return BODIES[form].format(name=case["case"], place=place, origin=origin, **ball | tensor)
 
 
 def main(names: list[str]) -> None:

@@ -17,7 +17,7 @@ from flint import arb, ctx
 from sympy import Expr
 
 from chapsym import generated
-from chapsym.dynamics.enclosed_motion import CertifiedMotion, decimal, written
+from chapsym.dynamics.enclosed_motion import PARTS, CertifiedMotion, decimal, written
 from chapsym.dynamics.flow.start import ball, balls
 from chapsym.files import Data
 
@@ -88,9 +88,7 @@ def made(digits: int) -> Data:
     moment, bits = slide.part * slide.mass * slide.radius**2, 4 * digits + 24
     with ctx.workprec(bits):
         d, n = balls((first, second)), balls((-second, first, Fraction(0)))
-        arrays: dict[str, list[Sequence[arb]]] = {
-            part: [] for part in ("gamma", "angular_momentum", "omega", "attitude", "contact")
-        }
+        arrays: dict[str, list[Sequence[arb]]] = {part: [] for part in PARTS}
         velocities = []
         for at in times:
             state = slide.slides(at) if at < slide.end else slide.rolls(at)

@@ -7,7 +7,7 @@ from typing import Any
 from benchmarks.kernels import Kernels
 from chapsym.files import Data
 
-from ..harness import NotComparable
+from ..harness import NotComparable, Say
 from . import frontiers, requests
 from .frontiers import Frontier, Point
 
@@ -27,7 +27,7 @@ DEFAULT = tuple(DRAWN)
 SECTIONS: dict[str, Callable[..., object]] = {**DRAWN, "requests": requests.measure, "kernels": Kernels}
 
 
-def run(section: str, quick: bool, say: Callable[[str], None] = lambda text: None) -> Any:
+def run(section: str, quick: bool, say: Say = lambda text: None) -> Any:
     """Measures a section; raises NotComparable where a reference is not confirmed."""
     return SECTIONS[section](quick, say)
 

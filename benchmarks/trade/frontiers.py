@@ -14,26 +14,17 @@ import numpy as np
 from chapsym.accuracy import Method, Request, methods, take
 from chapsym.accuracy.answer import CHECKS, exact_values, label_of
 from chapsym.accuracy.motion import EXTRAPOLATED, lengths
-from chapsym.dynamics import (
-    BadInput,
-    Ball,
-    StepNotTaken,
-    Trajectory,
-    certified_motion,
-    extrapolate,
-    kernels,
-    trajectory,
-)
+from chapsym.dynamics import BadInput, Ball, StepNotTaken, Trajectory, certified_motion, kernels, trajectory
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.certified import exactly
+from chapsym.dynamics.extrapolation import extrapolate
 from chapsym.dynamics.levels.start import fraction
 from chapsym.files import Data
 from chapsym.numbers import NAMED, Digits, Enclosure, Precision
 
-from ..harness import NotComparable, Run
+from ..harness import NotComparable, Run, Say
 from ..results import timed
 
-Say = Callable[[str], None]
 #: The digits of the table's rows.
 EVERY = (3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 50, 100)
 #: The measurement of rounding alone: |ω|ε in radians, the reference, and the precisions; those with a proof.
@@ -330,8 +321,7 @@ def batch(quick: bool, say: Say) -> Frontier:
     exact = [truth(request, 20) for request in some]
 
     def error(method: Method, steps: int) -> float:
-        runs = [take(request, method, steps, 1) for request in some]
-        return max(map(true_error, some, runs, exact))
+        return max(map(true_error, some, [take(request, method, steps, 1) for request in some], exact))
 
     choices = (
         _choice(one, method, steps, partial(error, method, steps), partial(_all, one.ball, K, gamma, method, steps))

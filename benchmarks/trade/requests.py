@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -17,7 +17,8 @@ from chapsym.dynamics import BadInput, kernels
 from chapsym.files import Data
 from chapsym.numbers import NAMED
 
-from ..harness import Contender, interleaved
+from ..harness import Contender, Say, interleaved
+from ..kernels import finite
 from .frontiers import true_error, truth
 
 SEED, COUNT, QUICK = 2007, 50, 5
@@ -126,8 +127,7 @@ class Outcomes:
         """Hits, and the cost against the best choice."""
         found = [f"{self.hits} of {len(self.outcomes)} within the accuracy"]
         found += [one.answer for one in self.outcomes if isinstance(one.answer, str)]
-        met = [one for one in self.outcomes if math.isfinite(one.seconds)]
-        if met:
+        if met := [one for one in self.outcomes if math.isfinite(one.seconds)]:
             run, whole = ([one.costs[i] / one.seconds for one in met] for i in (0, 1))
             found.append(f"what is delivered takes {median(run):.2f} times the best choice, at most {max(run):.2f}")
             found.append(f"with what was tried before {median(whole):.1f} times, at most {max(whole):.1f}")
@@ -135,15 +135,12 @@ class Outcomes:
 
     def as_json(self) -> Data:
         """The table and the hits as plain data."""
-        rows = [
-            {name: value if isinstance(value, str) or abs(value) < 1e300 else None for name, value in row.items()}
-            for row in self.table()
-        ]
+        rows = [{name: finite(value) for name, value in row.items()} for row in self.table()]
         found = {"title": self.title, "hits": self.hits, "count": len(self.outcomes)}
         return found | {"requests": rows, "notes": self.sentences()}
 
 
-def measure(quick: bool, say: Callable[[str], None] = lambda text: None, count: int = 0) -> Outcomes:
+def measure(quick: bool, say: Say = lambda text: None, count: int = 0) -> Outcomes:
     """The outcomes of random requests: 5 short ones if quick, or 50."""
     wanted, found = count or (QUICK if quick else COUNT), []
     for i, request in enumerate(drawn(wanted, quick)):

@@ -10,27 +10,15 @@ from budget import slow
 from commands import answer, chapsym, refused
 
 import benchmarks
-from benchmarks import (
-    calls,
-    command,
-    continuous,
-    dimensions,
-    figure,
-    goals,
-    harness,
-    long,
-    memory,
-    plans,
-    problems,
-    results,
-    trajectory,
-    work_precision,
-)
+from benchmarks import calls, command, continuous, dimensions, figure, goals, harness, memory, plans, problems, results
+from benchmarks import long as long_runs
+from benchmarks import trajectory as path
+from benchmarks import work_precision as work
 from chapsym import __version__
 from chapsym.dynamics.levels import frames
 from chapsym.studies import checkout
 
-STATE = trajectory.MOMENTUM, trajectory.GAMMA
+STATE = path.MOMENTUM, path.GAMMA
 
 
 def without(monkeypatch, *packages):
@@ -74,7 +62,7 @@ def test_one_core_is_one_core_and_is_given_back():
 
 def test_a_ball_of_ones_own_is_measured(monkeypatch):
     seen = []
-    monkeypatch.setattr(trajectory, "measure", lambda quick, on_round, own: seen.append(own) or result("trajectory"))
+    monkeypatch.setattr(path, "measure", lambda quick, on_round, own: seen.append(own) or result("trajectory"))
     ball = "--mass-tensor", "1,2,4", "--D", "3"
     assert answer("bench", *ball, "--momentum", "1/10,-1/20,3/40")["sections"]["trajectory"]["rows"]
     J, D, K, g = seen[0]
@@ -89,22 +77,22 @@ def test_a_ball_of_ones_own_is_measured(monkeypatch):
 def test_a_peer_that_is_a_little_wrong_or_ends_in_nan_is_seen(part, off, by):
     ends = [x.copy() for x in STATE]
     ends[part][0] += off
-    sides = {trajectory.CHAPSYM: lambda: STATE, "wrong": lambda: ends}
+    sides = {path.CHAPSYM: lambda: STATE, "wrong": lambda: ends}
     with pytest.raises(benchmarks.NotComparable, match=f"wrong differs from chapsym by {by}"):
-        trajectory.agreement(sides, STATE[0], trajectory.AGREEMENT)
+        path.agreement(sides, STATE[0], path.AGREEMENT)
 
 
-@pytest.mark.parametrize("name", [trajectory.LISTS, trajectory.ARRAYS])
+@pytest.mark.parametrize("name", [path.LISTS, path.ARRAYS])
 def test_a_peer_that_does_not_converge_says_so(name):
     """No rotation has such a momentum, so no iteration may settle."""
-    peer, _ = trajectory.SIDES[name]
+    peer, _ = path.SIDES[name]
     with pytest.raises((benchmarks.NotComparable, ValueError), match=r"converge|math domain"):
-        peer(50 * trajectory.MOMENTUM, trajectory.GAMMA, trajectory.MASS_TENSOR, trajectory.D, 3)
+        peer(50 * path.MOMENTUM, path.GAMMA, path.MASS_TENSOR, path.D, 3)
 
 
 def test_missing_packages_are_said(monkeypatch):
     without(monkeypatch, "scipy", "heyoka")
-    found, missing = work_precision.methods(quick=True)
+    found, missing = work.methods(quick=True)
     assert not [m.name for m in found if "SciPy" in m.name or "heyoka" in m.name]
     assert missing == {
         "SciPy DOP853, LSODA": "scipy is not installed (pip install 'chapsym[bench]')",
@@ -115,7 +103,7 @@ def test_missing_packages_are_said(monkeypatch):
 @pytest.fixture(scope="module")
 def exact():
     """The continuous ball of the work-precision diagram after 2 s."""
-    return continuous.reference(work_precision.STATE, 2.0)
+    return continuous.reference(work.STATE, 2.0)
 
 
 @pytest.mark.parametrize(
@@ -130,39 +118,39 @@ def exact():
 def test_the_integrators_solve_the_continuous_ball(peer, control, bound, package, exact):
     """Each within a hundred times what its control promises."""
     pytest.importorskip(package)
-    assert abs(peer(work_precision.STATE, 2.0, control) - exact).max() < bound
+    assert abs(peer(work.STATE, 2.0, control) - exact).max() < bound
 
 
 @pytest.mark.filterwarnings("ignore")
 def test_an_integrator_that_gives_up_is_no_comparison():
     pytest.importorskip("scipy")
     with pytest.raises(benchmarks.NotComparable, match="LSODA fails at the tolerance 1e-16"):
-        continuous.lsoda(work_precision.STATE, 2.0, 1e-16)
+        continuous.lsoda(work.STATE, 2.0, 1e-16)
 
 
 def test_the_map_tends_to_the_continuous_ball_with_order_2(exact):
-    coarse, fine = (abs(work_precision.the_map(work_precision.STATE, 2.0, n) - exact).max() for n in (200, 400))
+    coarse, fine = (abs(work.the_map(work.STATE, 2.0, n) - exact).max() for n in (200, 400))
     assert coarse / fine == pytest.approx(4, rel=0.02)
 
 
 def test_the_reference_is_the_motion(exact):
-    assert abs(work_precision.extrapolated(work_precision.STATE, 2.0, 20) - exact).max() < 1e-13
+    assert abs(work.extrapolated(work.STATE, 2.0, 20) - exact).max() < 1e-13
 
 
 def test_the_time_to_an_error_is_read_off_a_straight_line():
-    point = work_precision.Point
+    point = work.Point
     points = [point(n, n * 1e-6, n**-4.0, (0.0, 0.0, 0.0)) for n in (10, 100, 1000)]
-    assert work_precision.time_to(points, 1e-6) == pytest.approx(10**1.5 * 1e-6)
-    assert work_precision.time_to(points, 1.0) == points[0].seconds
-    assert work_precision.time_to(points, 1e-13) is None
+    assert work.time_to(points, 1e-6) == pytest.approx(10**1.5 * 1e-6)
+    assert work.time_to(points, 1.0) == points[0].seconds
+    assert work.time_to(points, 1e-13) is None
     # A finer run that is faster is what one would take.
-    assert work_precision.time_to([*points[:2], point(0, 1e-6, 1e-20, (0.0, 0.0, 0.0))], 1e-3) == 1e-6
+    assert work.time_to([*points[:2], point(0, 1e-6, 1e-20, (0.0, 0.0, 0.0))], 1e-3) == 1e-6
 
 
 def test_steps_that_are_too_long_are_left_out():
     exact = np.zeros(6)
-    method = work_precision.Method("map", work_precision.the_map, (3.0, 2500.0))
-    (point,) = work_precision.swept([method], exact, 1, lambda text: None)["map"]
+    method = work.Method("map", work.the_map, (3.0, 2500.0))
+    (point,) = work.swept([method], exact, 1, lambda text: None)["map"]
     assert point.control == 2500.0
     assert point.error == pytest.approx(1, abs=0.1)  # the largest of K and γ themselves
     assert max(point.integrals[:2]) < 1e-15
@@ -171,18 +159,18 @@ def test_steps_that_are_too_long_are_left_out():
 def test_slopes_of_known_growths():
     n = np.arange(100_001)
     for power in (0.0, 0.5, 1.0):
-        where, means = long.octaves(1e-16 * n**power, 1)
-        assert long.slope(where, means) == pytest.approx(power, abs=1e-3)
+        where, means = long_runs.octaves(1e-16 * n**power, 1)
+        assert long_runs.slope(where, means) == pytest.approx(power, abs=1e-3)
 
 
 def test_the_integrals_of_the_top_are_integrals():
     """⟨𝒦, J²𝒦⟩ is kept to roundings at D = 0, at a large ε too; ⟨𝒦, J𝒦⟩ is not, and it is not at D > 0."""
-    K, g, J, _ = long.balls(2)[1]
-    momenta, verticals = long.rolled(0.4 * K, g, J, 0.0, 1000, 10)
-    assert abs(long.integrals(momenta, verticals, J, 0.0)["energy, D = 0"]).max() < 1e-13
-    assert abs(long.integrals(momenta, verticals, np.sqrt(J), 0.0)["energy, D = 0"]).max() > 1e-4
-    rolling = long.rolled(0.4 * K, g, J, 0.5, 1000, 10)
-    assert abs(long.integrals(*rolling, J, 0.0)["energy, D = 0"]).max() > 1e-4
+    K, g, J, _ = long_runs.balls(2)[1]
+    momenta, verticals = long_runs.rolled(0.4 * K, g, J, 0.0, 1000, 10)
+    assert abs(long_runs.integrals(momenta, verticals, J, 0.0)["energy, D = 0"]).max() < 1e-13
+    assert abs(long_runs.integrals(momenta, verticals, np.sqrt(J), 0.0)["energy, D = 0"]).max() > 1e-4
+    rolling = long_runs.rolled(0.4 * K, g, J, 0.5, 1000, 10)
+    assert abs(long_runs.integrals(*rolling, J, 0.0)["energy, D = 0"]).max() > 1e-4
 
 
 def test_steps_in_n_dimensions_that_differ_are_not_compared(monkeypatch):
@@ -205,13 +193,10 @@ def test_the_peak_of_a_batch_is_that_of_its_process():
 
 
 def test_a_stepper_that_goes_elsewhere_is_seen(monkeypatch):
-    run = calls.chapsym.trajectory
-    monkeypatch.setattr(
-        calls.chapsym, "trajectory", lambda ball, K, *rest, **more: run(ball, K * (1 + 1e-15), *rest, **more)
-    )
-    with pytest.raises(
-        benchmarks.NotComparable, match=r"differs from chapsym\.trajectory after 10 steps, in the momentum"
-    ):
+    run, off = calls.chapsym.trajectory, 1 + 1e-15
+    monkeypatch.setattr(calls.chapsym, "trajectory", lambda ball, K, *rest, **more: run(ball, K * off, *rest, **more))
+    differs = r"differs from chapsym\.trajectory after 10 steps, in the momentum"
+    with pytest.raises(benchmarks.NotComparable, match=differs):
         calls.compare(10, True)
 
 
@@ -223,7 +208,7 @@ SLOW = {"goals", "work-precision"}
     "section", [pytest.param(one, marks=[pytest.mark.thorough] * (one in SLOW)) for one in benchmarks.SECTIONS]
 )
 def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
-    monkeypatch.setattr(long, "QUICK", (2000, 2))
+    monkeypatch.setattr(long_runs, "QUICK", (2000, 2))
     monkeypatch.setattr(plans, "BATCH", 20)
     monkeypatch.setattr(results, "interleaved", lambda sides, rounds, *more: harness.interleaved(sides, 1, *more))
     said = []
@@ -292,9 +277,8 @@ def test_what_is_reached():
 
 def test_the_figure_has_a_panel_for_each_group_of_curves():
     pytest.importorskip("matplotlib")
-    curves = [
-        benchmarks.Curve(panel, label, [1.0, 10.0], [1e-3, 0.0]) for panel in "pq" for label in ("chapsym", "other")
-    ]
+    named = itertools.product("pq", ("chapsym", "other"))
+    curves = [benchmarks.Curve(panel, label, [1.0, 10.0], [1e-3, 0.0]) for panel, label in named]
     drawn = figure.draw({"long": result("drifts", curves=curves), "memory": result("memory")})
     titles = [axis.get_title() for axis in drawn.get_axes() if axis.get_visible()]
     assert titles == ["p", "q"]
@@ -317,6 +301,6 @@ def test_the_command_prints_json_or_a_table(monkeypatch):
     monkeypatch.setattr(benchmarks, "run", cache(benchmarks.run))  # measured once for both
     assert list(answer("bench", "trajectory", "--quick")["sections"]) == ["trajectory"]
     shown = chapsym("bench", "trajectory", "--quick").stdout
-    assert trajectory.ARRAYS in shown
+    assert path.ARRAYS in shown
     assert "wanted: at least 1e+03" in shown
     assert f"chapsym {__version__}" in shown

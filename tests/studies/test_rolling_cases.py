@@ -38,9 +38,8 @@ def turning(q, omega):
 
 
 def integrated(times, slope, state, until=None):
-    return solve_ivp(
-        slope, (times[0], times[-1]), state, "DOP853", times, rtol=1e-13, atol=1e-15, max_step=0.03, events=until
-    )
+    fine, span = {"rtol": 1e-13, "atol": 1e-15, "max_step": 0.03}, (times[0], times[-1])
+    return solve_ivp(slope, span, state, "DOP853", times, events=until, **fine)
 
 
 def rolled(case, rotor):

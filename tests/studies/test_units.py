@@ -135,9 +135,8 @@ def test_a_study_that_was_ended_goes_on_and_leaves_no_process(tmp_path, sent):
 
 def test_the_same_on_a_cluster(tmp_path):
     path = tmp_path / "u.jsonl"
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None
-    ) as cluster:
+    small = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
+    with distributed.LocalCluster(**small) as cluster:
         found = run_units(units(), path, scheduler=cluster.scheduler_address)
     assert found == run_units(units(), path) == [{"n": i} for i in range(4)]
 

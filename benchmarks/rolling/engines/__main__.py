@@ -61,9 +61,7 @@ def main() -> None:
     except ImportError as error:
         sys.exit(f"{given.engine} is not installed ({error}): pip install 'chapsym[engines]'")
     except Exception as error:  # of a loader of another program, each with its own kinds
-        sys.exit(
-            f"{given.engine} does not take {body}: {str(error).splitlines()[0] if str(error) else type(error).__name__}"
-        )
+        sys.exit(f"{given.engine} does not take {body}: {(str(error) or type(error).__name__).splitlines()[0]}")
     files.write_text(output, table)
     sys.exit(subprocess.run([sys.executable, "-m", "chapsym", "judge", output, *truth], check=False).returncode)
 

@@ -62,9 +62,8 @@ def judge(run: Any, of: str | Case) -> dict[str, Any]:
         length = np.linalg.norm(arrays["attitude"], axis=-1, keepdims=True)
         if not (abs(length - 1) < 1e-3).all():
             raise BadInput("attitude must be unit quaternions, the scalar first")
-        found = Trajectory(
-            "run", arrays["centre"], arrays["attitude"] / length, arrays.get("velocity"), arrays.get("omega"), None
-        )
+        moving = arrays.get("velocity"), arrays.get("omega")
+        found = Trajectory("run", arrays["centre"], arrays["attitude"] / length, *moving, None)
     else:
         found = read_trajectory(Path(run), truth.time)
     return summary(departure(truth, found), truth.time)
