@@ -74,7 +74,11 @@ def study(name: str, quick: bool, output: Path | None, scheduler: str | None, as
     with progress_bar(name, 0) as shown:
         run = partial(units.run_units, path=kept, scheduler=scheduler, report=shown)
         found = module.study(quick, run)
-    written = [] if folder is None else _write(module, name, found, folder)
+    written = list[Path]()
+    if folder is not None:
+        written = [folder / f"{name}.json"]
+        files.write_text(written[0], json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n")
+        written += save_figures(module.__name__, module.DRAWN, found, folder)
     if as_json:
         print_json(found)
         return
@@ -82,10 +86,3 @@ def study(name: str, quick: bool, output: Path | None, scheduler: str | None, as
         print(sentence)
     for path in written:
         print(f"wrote {path}")
-
-
-def _write(module: ModuleType, name: str, found: files.Data, folder: Path) -> list[Path]:
-    """The data as JSON and the figures, each whole."""
-    data = folder / f"{name}.json"
-    files.write_text(data, json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n")
-    return [data, *save_figures(module.__name__, module.DRAWN, found, folder)]

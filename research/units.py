@@ -55,10 +55,7 @@ def compute(function: str, arguments: Data, key: str) -> Any:
 
 
 def run_units(
-    units: Sequence[Unit],
-    path: Path | None = None,
-    scheduler: str | None = None,
-    report: Report = lambda done, of: None,
+    units: Sequence[Unit], path: Path | None = None, scheduler: str | None = None, report: Report = lambda *_: None
 ) -> list[Any]:
     """The results of all units, in their order; those that the file at `path` has are not computed again.
 
@@ -110,10 +107,8 @@ def _kept(path: Path | None) -> Iterator[tuple[Data, Callable[[str, object], Non
         yield done, keep
 
 
-def _damaged(number: int, path: Path) -> BadInput:
-    return BadInput(
-        f"line {number} of {path} is no result of a study, or is damaged; delete it, or name another folder"
-    )
+def _damaged(n: int, path: Path) -> BadInput:
+    return BadInput(f"line {n} of {path} is no result of a study, or is damaged; delete it, or name another folder")
 
 
 def _read(stream: TextIO, path: Path) -> Data:

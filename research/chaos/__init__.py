@@ -71,12 +71,9 @@ def _units(quick: bool) -> list[tuple[str, Unit]]:
 
 def sentences(found: Data) -> list[str]:
     """The findings, a line each."""
-    sentences = []
     control = [s for s in found["samples"] if s["D"] == 0]
     wrong, of = sum(s["chaotic"] for s in control), sum(s["counted"] for s in control)
-    sentences.append(
-        f"D = 0, integrable: {wrong} of {of} orbits called chaotic (at most {share(of, wrong)[2]:.1e}, 95%)"
-    )
+    sentences = [f"D = 0, integrable: {wrong} of {of} orbits called chaotic (at most {share(of, wrong)[2]:.1e}, 95%)"]
     for near, where in ((False, "starts at random"), (True, "starts near the unstable rotation")):
         for J, D in sorted({(tuple(s["mass_tensor"]), s["D"]) for s in found["samples"] if s["D"] > 0}):
             runs = [s for s in found["samples"] if (tuple(s["mass_tensor"]), s["D"], s["near"]) == (J, D, near)]

@@ -195,10 +195,8 @@ def on_level(level: Level, energy: float, K: Floats, g: Floats) -> Floats:
     """States (2, n, 3) of the level with H = `energy`, turned from K and γ along the gradient of H."""
     small = 1e-6
     for _ in range(6):
-        slope = np.stack(
-            [(level.energy(*_turn(K, g, x)) - level.energy(*_turn(K, g, -x))) / (2 * small) for x in small * np.eye(3)],
-            axis=-1,
-        )
+        pairs = ((level.energy(*_turn(K, g, x)), level.energy(*_turn(K, g, -x))) for x in small * np.eye(3))
+        slope = np.stack([(ahead - behind) / (2 * small) for ahead, behind in pairs], axis=-1)
         lacking = energy - level.energy(K, g)
         K, g = _turn(K, g, slope * (lacking / (slope * slope).sum(axis=-1))[:, np.newaxis])
     return np.stack([K, g])

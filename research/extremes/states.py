@@ -156,8 +156,7 @@ def chain(state: State, stages: Vector) -> list[Truth]:
     """The oracle's steps with the momenta cᵢ𝒦, one from the other; raises ArithmeticError where there is none."""
     steps: list[Truth] = []
     for c in stages:
-        step = truth(replace(state, K=tuple(c * mp.mpf(x) for x in state.K)))
-        if step is None:
+        if (step := truth(replace(state, K=tuple(c * mp.mpf(x) for x in state.K)))) is None:
             raise ArithmeticError("the oracle meets a fold on the way")
         steps.append(step)
         state = replace(state, K=tuple(x / c for x in step.momentum), g=tuple(step.gamma))

@@ -13,23 +13,8 @@ from chapsym import generated
 from chapsym.dynamics import Ball, Status, StepNotTaken, Trajectory, fold, reverse, step, step_vertical, trajectory
 from chapsym.dynamics.coefficients import COMPOSITIONS
 
-from . import states
-from .judging import (
-    BUDGET,
-    DOUBLE,
-    FAILED,
-    KNOWN,
-    NO_DIGIT,
-    Judged,
-    Level,
-    compared,
-    mp,
-    number,
-    refused,
-    state,
-    whole,
-    worst,
-)
+from . import judging, states
+from .judging import BUDGET, DOUBLE, FAILED, Judged, Level, compared, mp, number, refused, state, whole, worst
 from .states import State, Truth, Vector, chain, fold_at, promised, reachable, scaled, truth, unit_gamma
 
 #: Beyond this share of a rounding from the fold, a precision cannot tell the two sides.
@@ -66,7 +51,7 @@ def judge(given: State | Callable[[Level], State], level: Level, quick: bool) ->
     except StepNotTaken as refusal:
         kappa, words = exact.condition if exact else None, str(refusal)
         lie = _lie(refusal.status, level, given, exact)
-        if lie and exact and exact.condition * level.unit > NO_DIGIT:
+        if lie and exact and exact.condition * level.unit > judging.NO_DIGIT:
             lie, words = "", f"rounded to it this is another state, as κ = {kappa:.2g}, of which it says: {refusal}"
         return Judged(FAILED, condition_number=kappa, reason=lie) if lie else refused(words, kappa)
     if exact is None and blurred(level, given):  # right for a momentum that is less than a rounding smaller
@@ -86,7 +71,7 @@ def bounded(given: State, exact: Truth) -> list[Judged]:
     for name, truths in (("momentum", exact.momentum), ("gamma", exact.gamma)):
         away = [number(x) - t for x, t in zip(getattr(found, name), truths, strict=True)]
         error, bound = mp.sqrt(sum(x * x for x in away)), float(getattr(found.proved, name))
-        if error > bound * (1 + KNOWN):
+        if error > bound * (1 + judging.KNOWN):
             wrong.append(Judged(FAILED, reason=f"{name} is wrong by {float(error):.3g}, where {bound:.3g} is proved"))
     return wrong
 

@@ -20,6 +20,7 @@ from chapsym.generated import gibbs_newton, turn
 Vector = tuple[arb, ...]
 #: A number as it is given: exact, or an Arb midpoint.
 Given = str | int | Fraction | arb
+Tensor = Sequence[Given]
 Real = TypeVar("Real", arb, float)
 
 #: Bits of a float64 Newton root that Arb's iteration may count on.
@@ -84,7 +85,7 @@ class Level:
     Raises BadInput where l is no circle's.
     """
 
-    def __init__(self, tensor: Sequence[Given], D: Given, height: Given, level: Given, kick: Given = 0) -> None:
+    def __init__(self, tensor: Tensor, D: Given, height: Given, level: Given, kick: Given = 0) -> None:
         J = [number(x) for x in tensor]
         self.tensor, self.D, self.h, self.l, self.kick = J, number(D), number(height), number(level), number(kick)
         self.I = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
@@ -131,10 +132,9 @@ class Level:
         k = tuple(self.h * x / 2 for x in gamma)
         u = self._root(k, gamma)
         moved = tuple(middle(x + d) for x, d in zip(gamma, turn(*(1, *u, *gamma)), strict=True))
-        return self._kicked(moved) if self.kick != 0 else moved
-
-    def _kicked(self, gamma: Vector) -> Vector:
-        c, s = self.direction(gamma)
+        if self.kick == 0:
+            return moved
+        c, s = self.direction(moved)
         phase = arb.atan2(s, c)
         return self.point(middle(phase + self.kick * (2 * phase).sin()))
 
@@ -158,8 +158,7 @@ class Level:
             settled, _, u = search((0.0, 0.0, 0.0), k, gamma, self._floats[:3], self._floats[3], *self._bound)
             if settled:
                 return u
-        given = (*(2 * x for x in k), *gamma, *self._J, self._floats[3])
-        status, _, q0, *q = small_rotation(*given)
+        status, _, q0, *q = small_rotation(*(*(2 * x for x in k), *gamma, *self._J, self._floats[3]))
         if status != TAKEN or q0 < 1e-6:
             raise BadInput(f"the small-rotation branch ends before the height {float(self.h):.6g}")
         return tuple(x / q0 for x in q)

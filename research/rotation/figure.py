@@ -38,11 +38,8 @@ def displacement(found: Data) -> Picture:
     axes[2].set(title=f"Top, D = 0, φ kicked by {decimal(kicked['kick'])} sin 2φ: it locks")
     n = len(top["values"])
     axes[1].plot(np.arange(n) / n, scaled(top["values"], -digits), "o", color=GREY, markersize=3.2)
-    axes[1].set(
-        title=f"Top, {named(top, 'J', 'D', 'h')}: zero to {digits} digits",
-        ylim=(-30, 30),
-        ylabel=f"displacement, $10^{{-{digits}}}$ half turns",
-    )
+    axes[1].set(title=f"Top, {named(top, 'J', 'D', 'h')}: zero to {digits} digits", ylim=(-30, 30))
+    axes[1].set_ylabel(f"displacement, $10^{{-{digits}}}$ half turns")
     for axis in axes[:3]:
         axis.axhline(0, color="0.6", linewidth=0.8, zorder=1)
         axis.set(xlabel="start u / 2K", xlim=(0, 1))
@@ -113,7 +110,7 @@ def staircase(found: Data) -> Picture:
     """ρ(l) of the ball and of the perturbed top; below, the widths of their plateaus on one logarithmic scale."""
     figure, axes = new("", 2, 2, height=3.7, width=WIDE, sharex="col")
     ball, top = found["staircase"]["ball"], found["staircase"]["top"]
-    widths = [(x["half_turns"], x["steps"], log10(x["width"])) for x in found["farey"]]
+    widths = [(x["half_turns"], x["steps"], float(x["level"]), log10(x["width"])) for x in found["farey"]]
     for axis, case, colour in ((axes[0], ball, BLUE), (axes[1], top, RED)):
         axis.plot(case["levels"], case["rotation_numbers"], color=colour)
         axis.tick_params(labelbottom=True)
@@ -122,14 +119,9 @@ def staircase(found: Data) -> Picture:
     axes[1].set(title=f"Kicked top, {named(top)}, τ = {decimal(top['kick'])}")
     _inset(axes[0], found)
     _steps(axes[1], top)
-    seen = [
-        (p["half_turns"], p["steps"], sum(p["edges"]) / 2, np.log10(p["edges"][1] - p["edges"][0]))
-        for p in top["plateaus"]
-        if p["edges"][1] - p["edges"][0] > 1e-14
-    ]
-    _stems(
-        axes[2], [(p, q, float(x["level"]), w) for (p, q, w), x in zip(widths, found["farey"], strict=True)], BLUE, 10
-    )
+    wide = [(p, p["edges"][1] - p["edges"][0]) for p in top["plateaus"]]
+    seen = [(p["half_turns"], p["steps"], sum(p["edges"]) / 2, np.log10(w)) for p, w in wide if w > 1e-14]
+    _stems(axes[2], widths, BLUE, 10)
     _stems(axes[3], seen, RED, 5)
     floor = 10.0 * np.ceil(-min(w for *_, w in widths) / 10 + 0.2)
     for axis in axes[2:]:
@@ -149,15 +141,9 @@ def _steps(axis: Axes, top: Data) -> None:
         rho = p["half_turns"] / p["steps"]
         axis.plot(p["edges"], [rho, rho], color="black", linewidth=2.4, solid_capstyle="butt")
     for p in named_ones:
-        rho, middle = p["half_turns"] / p["steps"], sum(p["edges"]) / 2
-        axis.annotate(
-            f"{p['half_turns']}/{p['steps']}",
-            (middle, rho),
-            (-6, 3),
-            textcoords="offset points",
-            ha="right",
-            fontsize=9.5,
-        )
+        turns, steps, at = p["half_turns"], p["steps"], sum(p["edges"]) / 2
+        name, rho = f"{turns}/{steps}", turns / steps
+        axis.annotate(name, (at, rho), (-6, 3), textcoords="offset points", ha="right", fontsize=9.5)
 
 
 def _inset(axis: Axes, found: Data) -> None:
@@ -213,26 +199,24 @@ def _against_q(axis: Axes, found: list[Data]) -> None:
     axis.legend(loc="lower left")
 
 
-def _against_D(axis: Axes, below: Axes, found: list[Data]) -> None:
+def _against_D(axis: Axes, rest: Axes, found: list[Data]) -> None:
     for q, colour, marker in zip(sorted({x["steps"] for x in found}), COLOURS, "osD^", strict=False):
         rows = sorted((x for x in found if x["steps"] == q), key=lambda x: Fraction(x["D"]))
         D = [float(Fraction(x["D"])) for x in rows]
         axis.plot(D, [log10(x["width"]) for x in rows], marker, color=colour, markersize=4.5, label=f"p/q = 1/{q}")
         small = [x for x in rows if Fraction(x["D"]) <= SMALL]
         axis.plot(D[: len(small)], [log10(x["law"]) for x in small], color=colour, linewidth=1)
-        below.plot(D, [1 - x["ratio"] for x in rows], marker + "-", color=colour, markersize=4, linewidth=0.8)
+        rest.plot(D, [1 - x["ratio"] for x in rows], marker + "-", color=colour, markersize=4, linewidth=0.8)
         if q == min(x["steps"] for x in found):
             ends = np.array([D[0], 0.25])
-            below.plot(ends, (1 - rows[0]["ratio"]) * ends / D[0], "--", color=GREY, linewidth=1, label="∝ D")
+            rest.plot(ends, (1 - rows[0]["ratio"]) * ends / D[0], "--", color=GREY, linewidth=1, label="∝ D")
     axis.set(
         xscale="log", xlabel="D", ylabel="$\\log_{10}$ width in l",
         title=f"Widths against D, {named(found[0], 'J', 'h')}; lines: the law",
     )  # fmt: skip
     axis.legend(loc="upper left")
-    below.set(
-        xscale="log", yscale="log", xlabel="D", ylabel="1 - measured / law", title="What the law leaves for D → 0"
-    )
-    below.legend(loc="lower right")
+    rest.set(xscale="log", yscale="log", xlabel="D", ylabel="1 - measured / law", title="What the law leaves for D → 0")
+    rest.legend(loc="lower right")
 
 
 def _one_half_turn(axis: Axes, found: list[Data]) -> None:
@@ -244,9 +228,8 @@ def _one_half_turn(axis: Axes, found: list[Data]) -> None:
             linewidth=0.8, label=case,
         )  # fmt: skip
     axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.2)
-    axis.text(
-        0.99, FLOAT64 + 0.6, "float64", transform=axis.get_yaxis_transform(), ha="right", color="0.3", fontsize=9.5
-    )
+    over = axis.get_yaxis_transform()
+    axis.text(0.99, FLOAT64 + 0.6, "float64", transform=over, ha="right", color="0.3", fontsize=9.5)
     axis.set(xlabel="q", ylabel="$\\log_{10}$ width in l", title="One half turn in q steps, h fixed")
     axis.set_ylim(bottom=axis.get_ylim()[0] - 22)
     axis.legend(loc="lower right", fontsize=8.5)
@@ -255,11 +238,8 @@ def _one_half_turn(axis: Axes, found: list[Data]) -> None:
 def digits(found: Data) -> Picture:
     """The digits at which each plateau is first seen, and the time of a step against the number of digits."""
     figure, axes = new("", 1, 2, height=4.2, width=WIDE)
-    seen = [
-        (-log10(x["displacement"][0]), x["needed"])
-        for name in ("turns", "fifth", "small_D", "farey")
-        for x in found[name]
-    ]
+    names = "turns", "fifth", "small_D", "farey"
+    seen = [(-log10(x["displacement"][0]), x["needed"]) for name in names for x in found[name]]
     far = max(x for x, _ in seen) * 1.04
     axes[0].fill_between([0, far], 0, 15.95, color=GREEN, alpha=0.10, linewidth=0)
     axes[0].text(far * 0.98, 8, "float64 can see", ha="right", va="center", color=GREEN)
@@ -271,9 +251,8 @@ def digits(found: Data) -> Picture:
     )  # fmt: skip
     rows = found["times"]
     axes[1].plot([x["digits"] for x in rows], [x["seconds"] * 1e6 for x in rows], "o-", color=RED, markersize=5)
-    axes[1].set(
-        xscale="log", yscale="log", xlabel="working digits", ylabel="µs a step", title="What a step costs in Arb"
-    )
+    axes[1].set(xscale="log", yscale="log", xlabel="working digits", ylabel="µs a step")
+    axes[1].set_title("What a step costs in Arb")
     axes[1].set_xticks([x["digits"] for x in rows if x["digits"] in (15, 30, 60, 120, 240, 400, 1000)])
     axes[1].xaxis.set_major_formatter(ScalarFormatter())
     axes[1].xaxis.set_minor_formatter(NullFormatter())

@@ -16,7 +16,7 @@ from flint import acb, arb, ctx
 from chapsym.dynamics import BadInput
 from chapsym.files import Data
 
-from .circle import Given, Level, Relation, halved, middle, number, solved
+from .circle import Given, Level, Relation, Tensor, halved, middle, number, solved
 
 #: Digits by which the level is known better than the plateau is wide, and the fewest digits.
 SPARE, FEWEST = 25, 50
@@ -57,7 +57,7 @@ def symmetric_starts(level: Level, steps: int) -> tuple[arb, arb]:
     return arb(0), solved(closed, guess, guess * arb("0.99"))
 
 
-def levels(tensor: Sequence[Given], D: Given) -> tuple[arb, arb]:
+def levels(tensor: Tensor, D: Given) -> tuple[arb, arb]:
     """The range of l around the outer axis: (1/Λ_b, greatest 1/Λ)."""
     J = [number(x) for x in tensor]
     _, low, high = sorted((1 / (sum(J) - x + number(D)) for x in J), key=float)
@@ -82,17 +82,14 @@ def bracket(off: Callable[[arb], arb], low: arb, high: arb) -> tuple[arb, arb] |
     return None
 
 
-def resonance(
-    tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, kick: Given = 0
-) -> tuple[arb, arb, int]:
+def resonance(tensor: Tensor, D: Given, height: Given, steps: int, turns: int, kick: Given = 0) -> tuple[arb, arb, int]:
     """(l, width by the law, digits to work with) near a resonance, at few digits."""
     with ctx.workdps(COARSE):
 
         def off(l: arb) -> arb:
             return Level(tensor, D, height, l, kick).displacement(0, steps, turns)
 
-        ends = bracket(off, *levels(tensor, D))
-        if ends is None:
+        if (ends := bracket(off, *levels(tensor, D))) is None:
             raise BadInput(f"no level has the rotation number {turns}/{steps} half turns")
         l = solved(off, *ends)
         slope = (off(ends[1]) - off(ends[0])) / (ends[1] - ends[0])
@@ -103,7 +100,7 @@ def resonance(
     return l, width, max(FEWEST, SPARE - decades(width))
 
 
-def plateau(tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, in_height: bool = False) -> Data:
+def plateau(tensor: Tensor, D: Given, height: Given, steps: int, turns: int, in_height: bool = False) -> Data:
     """Edges, middle, displacement and law of one plateau; numbers as decimal strings.
 
     width: in l; width_in_height: in h at the middle level; displacement: that of the symmetric orbits in the middle, in
@@ -141,9 +138,7 @@ def plateau(tensor: Sequence[Given], D: Given, height: Given, steps: int, turns:
 # The displacement of G^q over the circle at a resonance, and its Fourier coefficients.
 
 
-def middle_level(
-    tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, kick: Given, samples: int
-) -> arb:
+def middle_level(tensor: Tensor, D: Given, height: Given, steps: int, turns: int, kick: Given, samples: int) -> arb:
     """The level in the middle of the plateau, to the working digits.
 
     There the two symmetric orbits are displaced by opposite amounts; a perturbed top, which has no reversor, has the
@@ -174,7 +169,7 @@ def spectrum(values: Sequence[arb]) -> list[tuple[arb, arb]]:
 
 
 def displacement(
-    tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, digits: int, samples: int, kick: Given = 0
+    tensor: Tensor, D: Given, height: Given, steps: int, turns: int, digits: int, samples: int, kick: Given = 0
 ) -> Data:
     """(G^q(u) - u)/2K - p at u = 2Ki/n, in the middle of the plateau, and its Fourier coefficients in jπu/K.
 
@@ -215,7 +210,7 @@ def second_route(level: Level, phases: list[arb], values: list[arb], steps: int,
 # How many digits a plateau needs, and the cost of a step at a number of digits.
 
 
-def measured(tensor: Sequence[Given], D: Given, height: Given, steps: int, turns: int, in_height: bool = False) -> Data:
+def measured(tensor: Tensor, D: Given, height: Given, steps: int, turns: int, in_height: bool = False) -> Data:
     """`plateau`, with the fewest working digits at which it is seen."""
     found = plateau(tensor, D, height, steps, turns, in_height)
     return {**found, "needed": needed(found)}
@@ -242,7 +237,7 @@ def seen(found: Data, digits: int) -> bool:
     return all(abs(x - y) < abs(y) / 2 for x, y in zip(got, true, strict=True))
 
 
-def times(tensor: Sequence[Given], D: Given, height: Given, level: Given, digits: Sequence[int]) -> list[Data]:
+def times(tensor: Tensor, D: Given, height: Given, level: Given, digits: Sequence[int]) -> list[Data]:
     """Seconds of a processor for a step on the sphere at this many digits: the median of some runs."""
     found = []
     for n in digits:
@@ -286,7 +281,7 @@ def mean(found: list[arb], steps: int) -> arb:
     return middle(sum(w * x for w, x in zip(weights(steps), found, strict=False)) / arb.pi())
 
 
-def convergence(tensor: Sequence[Given], D: Given, height: Given, level: Given, counts: list[int], digits: int) -> Data:
+def convergence(tensor: Tensor, D: Given, height: Given, level: Given, counts: list[int], digits: int) -> Data:
     """Averages over growing numbers of steps; errors from 15-euler for D = 0, else from the longest average.
 
     Raises BadInput where there is no step.
@@ -307,7 +302,7 @@ def convergence(tensor: Sequence[Given], D: Given, height: Given, level: Given, 
         }  # fmt: skip
 
 
-def row(tensor: Sequence[Given], D: Given, height: str, points: int, steps: int, digits: int) -> Data:
+def row(tensor: Tensor, D: Given, height: str, points: int, steps: int, digits: int) -> Data:
     """The rotation number in half turns, as text, on levels of equal distance; None where the branch ends.
 
     With as many digits as the average over half the steps has, which has fewer.

@@ -74,14 +74,9 @@ def curve(tensor: list[int], D: str, height: str, kick: str, inside: list[float]
     d, h, tau = _floats(D, height, kick)
     l = np.linspace(*_range(tensor, d, inside), points)
     rho = rotation_numbers(tensor, d, h, l, steps, tau)
-    return {
-        "tensor": tensor,
-        "D": D,
-        "height": height,
-        "kick": kick,
-        "levels": [float(f"{x:.10g}") for x in l],
-        "rotation_numbers": [float(f"{x:.10g}") for x in rho],
-    }
+    levels, numbers = ([float(f"{x:.10g}") for x in values] for values in (l, rho))
+    given = {"tensor": tensor, "D": D, "height": height, "kick": kick}
+    return given | {"levels": levels, "rotation_numbers": numbers}
 
 
 def edges(
@@ -111,8 +106,7 @@ def plateaus(
     low, high = _range(tensor, d, inside)
     found = []
     for turns, steps in fractions:
-        at = edges(tensor, d, h, steps, turns, low, high, tau)
-        if at is not None:
+        if (at := edges(tensor, d, h, steps, turns, low, high, tau)) is not None:
             found.append({"half_turns": turns, "steps": steps, "edges": at})
     return found
 
