@@ -79,7 +79,8 @@ class Interval(Arithmetic):
         return Interval(self.lo + other.lo, self.hi + other.hi, self.bits)
 
     def __sub__(self, other: Interval | int) -> Interval:
-        other = self._of(other)
+        if isinstance(other, int) or other.bits != self.bits:
+            other = self._of(other)
         return Interval(self.lo - other.hi, self.hi - other.lo, self.bits)
 
     def __mul__(self, other: Interval | int) -> Interval:
@@ -87,17 +88,22 @@ class Interval(Arithmetic):
             low, high = (self.lo, self.hi) if other >= 0 else (self.hi, self.lo)
             return Interval(low * other, high * other, self.bits)
         a, b, c, d, bits = self.lo, self.hi, other.lo, other.hi, self._of(other).bits
-        if a > 0 and c > 0:  # the most frequent case
-            return Interval(a * c >> bits, -(-b * d >> bits), bits)
-        ends = a * c, a * d, b * c, b * d
-        return Interval(min(ends) >> bits, -(-max(ends) >> bits), bits)
+        if a < 0 <= c:
+            a, b, c, d = c, d, a, b
+        if a >= 0:
+            return Interval((a if c >= 0 else b) * c >> bits, -((b if d >= 0 else a) * -d >> bits), bits)
+        if b <= 0:  # and c < 0
+            return Interval((a if d >= 0 else b) * d >> bits, -(-a * c >> bits), bits)
+        return Interval(min(a * d, b * c) >> bits, -(-max(a * c, b * d) >> bits), bits)
 
     def __truediv__(self, other: Interval | int) -> Interval:
         other = self._of(other)
-        if other.lo <= 0 <= other.hi:
+        if other.hi < 0:
+            return -self / -other
+        if other.lo <= 0:
             raise Rejected("a number that is divided by is not proved to differ from 0")
-        pairs = [(x << self.bits, y) for x in (self.lo, self.hi) for y in (other.lo, other.hi)]
-        return Interval(min(x // y for x, y in pairs), max(-(-x // y) for x, y in pairs), self.bits)
+        low, high = ((x << self.bits) // (other.hi if x >= 0 else other.lo) for x in (self.lo, -self.hi))
+        return Interval(low, -high, self.bits)
 
     def __rtruediv__(self, other: int) -> Interval:
         return self._of(other) / self

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from functools import cache
 from heapq import heapify, heappop, heappush
 from typing import Any
 
@@ -269,6 +270,7 @@ class Comparer:
     """A comparison of equations between words, or between their traces: their differences, reduced by the rules."""
 
     root: Tree | None = None  # the radicand in the formula that is read
+    folds = True  # whether derived names may be letters
 
     def __init__(self, algebra: Algebra, made: Mapping[str, Defined], traces: bool):
         self.algebra, self.made, self._settled = algebra, made, algebra.traced if traces else lambda x: x
@@ -279,7 +281,7 @@ class Comparer:
         self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any] = (), folded: bool = False
     ) -> Differences:
         """Left - right; `local`: names for parts, with their trees; `folded`: derived names are letters."""
-        if (text := repr((sides, local, folded, self.root))) not in self._known:
+        if (text := repr((sides, local, folded and self.folds, self.root))) not in self._known:
             self._known[text] = self._differences(sides, local, folded)
         return self._known[text]
 
@@ -320,8 +322,8 @@ class _InRing(Comparer):
     """
 
     def __init__(self, ring: Quotients, made: Mapping[str, Defined]):
-        self.ring, self.made = ring, made
-        self.names, self._known = {*ring.names, *made}, {}
+        self.ring, self.made, self.folds = ring, made, False
+        self.names, self._known, self._without = {*ring.names, *made}, {}, cache(_without)
 
     def _differences(self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any], folded: bool) -> Differences:
         trees = [*(tree for pair in sides for tree in pair), *(tree for _, tree in local)]
@@ -339,7 +341,8 @@ class _InRing(Comparer):
         if all(map(proportional, said[0], decided[0])):
             return True
         pairs = zip(said[0], decided[0], strict=True)
-        return all(proportional(_without(a, said[1]), _without(b, [*decided[1], *said[1]])) for a, b in pairs)
+        less = self._without
+        return all(proportional(less(a, *said[1]), less(b, *decided[1], *said[1])) for a, b in pairs)
 
 
 def comparers(data: Data, algebras: Sequence[Algebra | Quotients], made: Mapping[str, Defined]) -> list[Comparer]:
@@ -370,7 +373,7 @@ def _squared(of: Quotient, ring: Quotients, under: Tree | None) -> Polynomial:
     return (p * p - q * q * ring.read(under)).numerator
 
 
-def _without(of: Polynomial, divisors: Sequence[Polynomial]) -> Polynomial:
+def _without(of: Polynomial, *divisors: Polynomial) -> Polynomial:
     """The polynomial divided by all powers of the divisors that it has; equivalent where these are not 0."""
     for divisor in divisors:
         while of.terms and (smaller := _divided(of, divisor)) is not None:

@@ -96,7 +96,8 @@ class Polynomial(Arithmetic):
         return 1 + self.bits // 512
 
     def __mul__(self, other: Polynomial) -> Polynomial:
-        small, large = sorted((self.terms, other.terms), key=len)
+        less = len(self.terms) <= len(other.terms)
+        small, large = (self.terms, other.terms) if less else (other.terms, self.terms)
         # Products of long numbers, and of monomials in many variables, cost more.
         price = 1 + (self.bits + other.bits) // 512 + len(self.ring.variables) // 64
         self.ring.work.spend(1 + len(small) * len(large) * price)

@@ -281,7 +281,7 @@ def check(data: Data) -> dict[str, str]:
     for i, one in enumerate(data["algebras"]):
         if one["kind"] != "quotient":
             check_satisfiable(one, points, f"algebra {i}")
-    supposed: set[int] = set()
+    supposed, places = set[int](), set[tuple[int, int]]()
     for i, one in enumerate(data["statements"]):
         decided_in, (differences, _) = algebras[one["algebra"]], deciding[one["algebra"]].stated(one)
         if "refuted" in one:  # `stated` has checked its names
@@ -292,7 +292,9 @@ def check(data: Data) -> dict[str, str]:
                 supposed.add(i)
         elif any(x.terms for x in differences):
             raise Rejected(f"{where} is not proved: left - right does not become 0 by the rules")
-        check_hypotheses(algebra, point, where, whole=True)
+        if (place := (one["algebra"], one["point"])) not in places:
+            check_hypotheses(algebra, point, where, whole=True)
+            places.add(place)
         if not holds(one, algebra, point, values, where):
             raise Rejected(f"{where} fails at its point")
     for role in STATED if data["verdict"] != "open" else ():
@@ -375,7 +377,8 @@ def entries(data: Data) -> dict[str, Value]:
 def at(tree: Tree, point: Mapping[str, Value], values: Mapping[str, Tree], where: str) -> Value:
     """The value of a tree at a point; `values`: the trees of derived names."""
     try:
-        made = {name: value(values[name], point, Fraction) for name in names_in(tree) & values.keys()}
+        used = names_in(tree) & values.keys() if values else ()
+        made = {name: value(values[name], point, Fraction) for name in used}
         found: Value = value(tree, {**point, **made}, Fraction)
     except ZeroDivisionError:
         raise Rejected(f"{where} has a point at which a denominator vanishes") from None

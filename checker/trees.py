@@ -9,6 +9,7 @@ matters: they need not commute.
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from operator import add, mul
 from typing import Any
 
@@ -22,6 +23,7 @@ MOST_DEPTH, MOST_OPERANDS, MOST_POWER, MOST_BITS, MOST_BITS_OF_VALUES = 60, 20_0
 #: The form of a name, such as q0, R_+ and Omega^T; none has the form of a power.
 _NAME = re.compile(r"[A-Za-z_]\w*(_[+-])?(\^[A-Za-z])?", re.ASCII)
 MOST_LETTERS_OF_A_NAME = 40
+_fraction = lru_cache(Fraction)
 _QUOTIENT = re.compile(r"-?[1-9]\d*/[1-9]\d*", re.ASCII)
 
 
@@ -54,10 +56,10 @@ def plain(x: Fraction) -> Fraction | int:
 
 def bounded(x: Any) -> Any:
     """The value itself; raises Rejected for a rational number, or a dual of an interval, that is too large."""
-    if isinstance(x, Fraction | int):
+    if (kind := type(x)) is Fraction or kind is int:
         size = bits(x)
     else:
-        size = (x.value.most >> x.value.bits).bit_length() if isinstance(x, Dual) else 0
+        size = (x.value.most >> x.value.bits).bit_length() if kind is Dual else 0
     if size > MOST_BITS_OF_VALUES:
         raise Rejected("the certificate has a number too large to be checked")
     return x
@@ -97,7 +99,7 @@ def value(tree: Tree, names: Mapping[str, Any], number: Callable[[Fraction], Any
     if not isinstance(tree, list):
         if isinstance(tree, str) and _is_name(tree):
             raise Rejected(f"the name {tree!a:.40} has no value where it stands")
-        return number(Fraction(tree))
+        return number(_fraction(tree))
     if tree[0] == "^":
         return bounded(value(tree[1], names, number) ** tree[2])
     return _joined(add if tree[0] == "+" else mul, [value(part, names, number) for part in tree[1:]])

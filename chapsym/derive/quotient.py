@@ -7,7 +7,7 @@ arithmetic (python-flint).
 
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from functools import cached_property
+from functools import cache, cached_property
 from math import prod
 from numbers import Number
 
@@ -53,9 +53,7 @@ class Quotient:
 
     @cached_property
     def _basis(self) -> list[fmpq_mpoly]:
-        if not self.relations:
-            return []
-        return list(map(self._read, sp.groebner(self.relations, *self.symbols, order="grevlex", domain="QQ").exprs))
+        return list(map(self._read, _groebner(self.relations, self.symbols))) if self.relations else []
 
     def _read(self, expr: sp.Expr) -> fmpq_mpoly:
         """A SymPy polynomial as one of python-flint."""
@@ -141,3 +139,9 @@ class Quotient:
             for element in self._basis:
                 polynomial = divmod(polynomial, element)[1]
         return polynomial
+
+
+@cache
+def _groebner(relations: tuple[sp.Expr, ...], symbols: tuple[sp.Symbol, ...]) -> list[sp.Expr]:
+    """The Gröbner basis of relations, which the rings of several proofs have."""
+    return sp.groebner(relations, *symbols, order="grevlex", domain="QQ").exprs

@@ -261,5 +261,5 @@ def evaluate(expr: sp.Expr | int, values: Mapping[sp.Symbol, sp.Matrix | sp.Expr
         product = matrices[word[0]] if word else sp.eye(max(matrix.rows for matrix in matrices.values()))
         for letter in word[1:]:
             product = product * matrices[letter]
-        parts.append(coefficient * product)
+        parts.append(product if coefficient == 1 else coefficient * product)
     return sum(parts[1:], parts[0]) if parts else sp.S.Zero

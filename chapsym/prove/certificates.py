@@ -412,6 +412,8 @@ class _Maker:
 
     def _cofactors(self, one: Data) -> list[list[Tree]]:
         """The cofactors of each entry of left - right, for the numerator that the checker forms."""
+        if not self.algebras[one["algebra"]]["relations"]:
+            return [[] for _ in one["left"]]  # the numerators are 0, which the checker sees
         ring = quotients(self.algebras[one["algebra"]], Ring(self.algebras[one["algebra"]]["variables"], Work()))
         more = derivation.entries([*one["left"], *one["right"]], self._defined)
         if one["algebra"] not in self._ideals:

@@ -1,6 +1,7 @@
 """Claims: the rows of the register, each with its proof."""
 
 import ast
+import gc
 import importlib
 import inspect
 import textwrap
@@ -248,11 +249,13 @@ _KNOWN: dict[Claim, Judgement] | None = None
 def once() -> Iterator[None]:
     """A context in which each claim is judged only once, though others use it: its proof must not change meanwhile."""
     global _KNOWN
-    _KNOWN, before = {}, _KNOWN
+    _KNOWN, before, thresholds = {}, _KNOWN, gc.get_threshold()
+    gc.set_threshold(100_000, 50, 100)  # each time all expressions are looked through, which make few cycles
     try:
         yield
     finally:
         _KNOWN = before
+        gc.set_threshold(*thresholds)
 
 
 def judgement_of(claim: Claim) -> Judgement:

@@ -14,6 +14,7 @@ import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial, wraps
+from graphlib import CycleError, TopologicalSorter
 from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import ModuleType
@@ -229,15 +230,16 @@ class Register:
         for id, claim in claims.items():
             if self != PROOFS and id in ours:
                 raise _taken(claim.prove.__module__, id, "chapsym")
-            if id in reached(id, claims):
-                raise BrokenScript(
-                    f"{self.place}: {id} uses itself, directly or through others: uses goes in no circle"
-                )
             if missing := [used for used in claim.uses if used not in claims and used not in ours]:
                 path = self._path()
                 alone = f"; the register {path.parent} would have its other scripts" if path and path.is_file() else ""
                 said = f"{id} uses {missing[0]!r}, which no proof judges{alone}"
                 raise BrokenScript(f"{_shown(claim.prove.__module__)}: {said}")
+        try:
+            TopologicalSorter({id: claim.uses for id, claim in claims.items()}).prepare()
+        except CycleError as error:
+            said = f"{min(error.args[1])} uses itself, directly or through others: uses goes in no circle"
+            raise BrokenScript(f"{self.place}: {said}") from None
 
 
 #: The claims of Fedorov's paper, and the lemmas of chapsym.
