@@ -2,7 +2,7 @@
 
 import operator
 from fractions import Fraction
-from itertools import zip_longest
+from itertools import combinations_with_replacement, product, zip_longest
 
 import pytest
 from hypothesis import assume, given
@@ -52,13 +52,25 @@ def hull(numbers):
     return min(scaled).__floor__(), max(scaled).__ceil__()
 
 
+def is_least(x, y, operation):
+    """Whether the operation gives the least interval that contains all results."""
+    corners = [(Fraction(a, 2**BITS), Fraction(b, 2**BITS)) for a in (x.lo, x.hi) for b in (y.lo, y.hi)]
+    found = operation(x, y)
+    return (found.lo, found.hi) == hull([operation(a, b) for a, b in corners])
+
+
 @given(intervals(), intervals(), st.sampled_from([operator.add, operator.sub, operator.mul, operator.truediv]))
 def test_an_operation_gives_the_least_interval_that_contains_all_results(x, y, operation):
     assume(operation is not operator.truediv or y.sign)
-    corners = [(Fraction(a, 2**BITS), Fraction(b, 2**BITS)) for a in (x.lo, x.hi) for b in (y.lo, y.hi)]
-    found = operation(x, y)
-    assert (found.lo, found.hi) == hull([operation(a, b) for a, b in corners])
+    assert is_least(x, y, operation)
     assert ((-x).lo, (-x).hi) == (-x.hi, -x.lo)
+
+
+def test_so_do_products_and_quotients_with_all_signs_of_the_ends():
+    pairs = list(combinations_with_replacement(range(-3, 4), 2))
+    for x, y in product([Interval(*ends, BITS) for ends in pairs], repeat=2):
+        assert is_least(x, y, operator.mul)
+        assert not y.sign or is_least(x, y, operator.truediv)
 
 
 @given(intervals(ends=st.integers(1, 2**20)))
