@@ -1,7 +1,7 @@
 """Certificates of the register that are changed: the cases of the checker's tests, and of its mutants."""
 
 import copy
-from functools import cache
+from functools import cache, partial
 
 from certificate_changes import resealed
 
@@ -291,6 +291,9 @@ def defined(left, right, *definitions):
 
 
 SQUARED = [["y", ["+", "x", 1]], ["z", ["*", "y", "y"]]]
+#: A statement that holds where x = 2, too, which is not in ONE; and its cofactor.
+BY_TWO = ["+", "x", -2]
+AWAY = ["*", ["+", "x", -1], BY_TWO], 0
 BY_X = ["+", ["^", "x", 2], ["*", 2, "x"], 1]
 
 
@@ -302,6 +305,7 @@ def small():
     wrong = said("x", 2, 1, refuted=0)
     right = {
         "x = 1 where x - 1 = 0": by_hand([identity], [point], [ONE]),
+        "(x - 1)(x - 2) = 0 where x - 1 = 0": by_hand([said(*AWAY, cofactors=[[BY_TWO]], point=0)], [point], [ONE]),
         "a question that a claim settles": resealed(by_hand([]) | {"verdict": "settled", "uses": ["1"]}),
         "x = 2 fails at 1": by_hand([identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0])]),
         "AB = 1": of_words(["*", "A", "B"], 1),
@@ -320,6 +324,7 @@ def small():
             [point], [FREE],
         ),
     }  # fmt: skip
+    other = partial(said, *AWAY, cofactors=[[BY_TWO]])
     two = [contradicted(0, {"x": 3}), contradicted(1, {"x": 2}, [0])]
     found, lost = zeros()
     return right | found, lost | {
@@ -367,6 +372,9 @@ def small():
             [], [{"x": 1}, {"y": 1}], [], [], [assumed(["<", 0, ["+", "x", "y"]])]
         ),
         "a rule that fails": of_words("A", "A", A=[[2]], B=[[2]]),
+        "a relation that fails at the second point": by_hand([identity, other(point=1)], [point, {"x": 2}], [ONE]),
+        "a relation that fails in the second algebra": by_hand(
+            [said("x", "x", point=0, cofactors=[[]]), other(1, point=0)], [{"x": 2}], [FREE, ONE]),
         "no transposes": of_words("A", "A", A=[[1, 1], [0, 1]], B=[[1, -1], [0, 1]]),
         "m = 1": of_words("m", 1),
         "AB = BA": of_words(["*", "A", "B"], ["*", "B", "A"]),
