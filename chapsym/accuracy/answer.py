@@ -15,17 +15,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, extrapolate, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
-from chapsym.dynamics.ball import (
-    Floats,
-    batch,
-    brief,
-    callback,
-    checked_before,
-    is_flag,
-    numbers,
-    one_of,
-    unit_vertical,
-)
+from chapsym.dynamics.ball import Floats, batch, callback, checked_before, is_flag, numbers, one_of, unit_vertical
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
@@ -35,7 +25,7 @@ from chapsym.dynamics.loops.expected import CONDITION, ENDLESS
 from chapsym.dynamics.map import MOST_STEPS as MOST_FRAMES
 from chapsym.dynamics.map import time_limit, until, whole_number
 from chapsym.dynamics.results import some_frames
-from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, in_words, pairs
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, brief, in_words, pairs
 
 from . import motion
 from .motion import FEWEST, LESS, LIKELY, MARGIN, Motion, Problem

@@ -84,8 +84,7 @@ def discretisation(
 
     # Two runs in float32 would share the rounding of the ball and of the start.
     coarse, fine = run(1, precision), run(2, "double" if precision == "single" else precision)
-    there = (coarse.status == Status.TAKEN) & (fine.status == Status.TAKEN)
-    if not there.any():
+    if not (there := (coarse.status == Status.TAKEN) & (fine.status == Status.TAKEN)).any():
         return None
     far = _apart(coarse, fine, there, 2.0**order / (2.0**order - 1))
     numbers = [x for x in far.values() if x is not None]

@@ -23,18 +23,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.dynamics import (
-    BadInput,
-    Ball,
-    Status,
-    StepNotTaken,
-    Trajectory,
-    extrapolate,
-    is_steady,
-    kernels,
-    native,
-    trajectory,
-)
+from chapsym.dynamics import Ball, Status, Trajectory, extrapolate, is_steady, kernels, native, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import (
     Asked,
@@ -51,24 +40,11 @@ from chapsym.dynamics.ball import (
     unit_vertical,
 )
 from chapsym.dynamics.enclosed_motion import of_motion
+from chapsym.dynamics.errors import BadInput, StepNotTaken
 from chapsym.dynamics.extrapolation import FEW, MOST_OF_PAIRS, loop_weights, of_some, stages_of
 from chapsym.dynamics.levels.frames import Count, cores, share, watched
 from chapsym.dynamics.levels.proved import lengths
-from chapsym.dynamics.loops import double_double, following, records
-from chapsym.dynamics.loops.expected import (
-    ALLOWED,
-    CONDITION,
-    ENDLESS,
-    FIRST,
-    FLOOR,
-    FOUND,
-    MOST,
-    RATE,
-    START,
-    STILL,
-    estimated,
-    surveyed,
-)
+from chapsym.dynamics.loops import double_double, expected, following, records
 from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, follow, follow_alone
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
@@ -426,8 +402,8 @@ class Problem:
         #: The unit of each ball's error, (n,): 1, or the radius in m.
         self.units = np.empty(n)
         self.units[:] = ball.radius if self.metres and ball.radius is not None else 1.0
-        self.survey: Floats = np.empty((FOUND, n))
-        survey = native.loop(surveyed)
+        self.survey: Floats = np.empty((expected.FOUND, n))
+        survey = native.loop(expected.surveyed)
         #: The largest error of any ball by rounding alone, and whether some ball may rotate steadily.
         self.floor, self.single = survey(
             self.K, self.gamma, np.ascontiguousarray(ball.mass_tensor), ball.D, self.units, self.end, self.accuracy,
@@ -447,13 +423,13 @@ class Problem:
     @property
     def rate(self) -> Floats:
         """|ω| at the start in rad/s, (n,)."""
-        return self.survey[RATE]
+        return self.survey[expected.RATE]
 
     @property
     def expected(self) -> float:
         """The approximate number of long steps of all balls."""
         with np.errstate(over="ignore", under="ignore"):  # of arguments that are refused
-            return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
+            return float((self.end / self.survey[expected.FIRST]).sum()) if self.frames else 0.0
 
     def nothing(self) -> Motion:
         """An empty motion, whose first frame is the start."""
@@ -482,8 +458,7 @@ def nominal(problem: Problem) -> float:
 
 def moved(problem: Problem, progress: Callable[[float], None] = lambda done: None) -> Motion:
     """The motion to the accuracy, or BadInput if rounding alone is larger; `progress` gets the number of balls done."""
-    steady = _check(problem)
-    if steady is None:
+    if (steady := _check(problem)) is None:
         found = _follow(problem, progress)
     else:
         found = problem.nothing()
@@ -514,7 +489,7 @@ def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
         assert few.ball.radius is not None
         centre = kernels.rotate(few.attitude, np.cross(omega, few.gamma))[:, :2] * few.ball.radius[:, np.newaxis]
         found.contact[some] = centre[:, np.newaxis] * time[:, np.newaxis]
-    found.reached[some], found.error[some] = problem.frames, few.survey[STILL]
+    found.reached[some], found.error[some] = problem.frames, few.survey[expected.STILL]
 
 
 def _check(problem: Problem) -> np.ndarray | None:
@@ -522,8 +497,8 @@ def _check(problem: Problem) -> np.ndarray | None:
     worst, steady = problem.floor, None
     if problem.single:
         steady = is_steady(problem.ball, problem.K, problem.gamma)
-        worst = float(np.where(steady, problem.survey[STILL], problem.survey[FLOOR]).max())
-    if worst > ROUNDING * problem.accuracy and (problem.survey[CONDITION] >= ENDLESS).any():
+        worst = float(np.where(steady, problem.survey[expected.STILL], problem.survey[expected.FLOOR]).max())
+    if worst > ROUNDING * problem.accuracy and (problem.survey[expected.CONDITION] >= expected.ENDLESS).any():
         raise BadInput(
             "the ball has a principal moment of 0, and no angular velocity where that axis is vertical, so that no "
             "accuracy can be stated; give that moment a small value, or replace the motion by the map, map=True"
@@ -542,7 +517,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     """Balls that do not rotate steadily."""
     found, accuracy = problem.nothing(), problem.accuracy
     if not problem.frames:
-        found.error[:] = problem.survey[FLOOR]
+        found.error[:] = problem.survey[expected.FLOOR]
         return found
     done = 0.0
 
@@ -552,11 +527,12 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         done = max(done, others + part)
         progress(done)
 
-    worst, noise, started = _run(problem, problem.survey[FIRST], problem.survey[ALLOWED], found, report)
+    first, allowed = problem.survey[expected.FIRST], problem.survey[expected.ALLOWED]
+    worst, noise, started = _run(problem, first, allowed, found, report)
     if worst <= accuracy:
         progress(len(problem))
         return found
-    first, allowed = problem.survey[FIRST].copy(), problem.survey[ALLOWED].copy()
+    first, allowed = first.copy(), allowed.copy()
     for attempt in range(1, TRIES):
         given_up = (found.reached < problem.frames) & (found.status == Status.TAKEN)
         some = np.flatnonzero((found.error > accuracy) & (noise <= ROUNDING * accuracy) | given_up)
@@ -605,7 +581,8 @@ def _run(
     loop, width = (native.loop(follow_alone), 1) if n < FEW else (native.loop(follow), TOGETHER)
     shortest = first.item() if n == 1 else float(first.min(initial=problem.end))
     quick = n * (problem.end * STEP + problem.frames * FRAME * shortest) <= QUICK * shortest
-    asked = following.Asked(first, allowed, problem.survey[MOST], problem.survey[START], problem.interval, patient)
+    most, start = problem.survey[expected.MOST], problem.survey[expected.START]
+    asked = following.Asked(first, allowed, most, start, problem.interval, patient)
     weights = loop_weights(MOST_COLUMNS)
     if n == 1 and quick:
         loop(frames, balls, asked, weights, ends, reported)
@@ -640,7 +617,7 @@ def _run(
     turned = not asked_of or not asked_of.isdisjoint(TURNED)
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
     errors = found.error, noise, started
-    worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, *errors, found.total)
+    worst = native.loop(expected.estimated)(problem.survey, reported, problem.units, *counted, *errors, found.total)
     return worst, noise, started
 
 
@@ -670,7 +647,7 @@ def doubled(
     if (times := -(-COMPARED // problem.frames)) > 1:
         often = replace(problem, interval=problem.interval / times, frames=problem.frames * times)
         again = often.nothing()
-        _run(often, often.survey[FIRST], often.survey[ALLOWED], again, lambda done: None, True)
+        _run(often, often.survey[expected.FIRST], often.survey[expected.ALLOWED], again, lambda done: None, True)
         again.total[:] = np.maximum(again.total, long.total)
         return doubled(often, again, started, progress).every(times)
     n = len(problem)
@@ -738,7 +715,7 @@ def _verified(
 
 def _stated(problem: Problem, started: Floats, off: Floats) -> Floats:
     """The error from the distance of two runs, and of the start and the last roundings."""
-    return LIKELY * off + problem.survey[FLOOR] + SENSITIVE * started
+    return LIKELY * off + problem.survey[expected.FLOOR] + SENSITIVE * started
 
 
 def _long_steps(problem: Problem, columns: int, steps: int, progress: Callable[[int], None]) -> Motion:
@@ -768,7 +745,7 @@ def _filled(problem: Problem, ends: Motion, together: int) -> Motion:
     K, gamma, attitude = (flat(x) for x in (starts.angular_momentum, starts.gamma, starts.attitude))
     part = replace(problem, ball=checked_before(*balls), K=K, gamma=gamma, frames=together, attitude=attitude)  # type: ignore[arg-type]
     inside = part.nothing()
-    _run(part, part.survey[FIRST], part.survey[ALLOWED], inside, lambda done: None, True)
+    _run(part, part.survey[expected.FIRST], part.survey[expected.ALLOWED], inside, lambda done: None, True)
     if inside.contact is not None:
         inside.contact += flat(starts.contact)[:, np.newaxis]
     found = problem.nothing()
@@ -789,8 +766,7 @@ def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
     tensor, D = problem.ball.mass_tensor, problem.ball.D
     if K.ndim == 3:
         tensor, D = tensor[:, np.newaxis], D[:, np.newaxis]
-    missing = np.isnan(K)
-    if not missing.any():
+    if not (missing := np.isnan(K)).any():
         return kernels.angular_velocity(K, gamma, tensor, D)
     omega = kernels.angular_velocity(np.where(missing, 0.0, K), np.where(missing, _UP, gamma), tensor, D)
     return np.where(missing, np.nan, omega)

@@ -66,7 +66,6 @@ def simplest(low: Fraction, high: Fraction) -> Fraction:
 
 def shortest(x: Fraction) -> str:
     """A number as an exact string: 1e-40 for a power of 10 below 1, a decimal, else a fraction."""
-    digits = decimals(x)
-    if digits is None:
+    if (digits := decimals(x)) is None:
         return str(x)
     return f"1e-{digits}" if digits and x * 10**digits == 1 else decimal(x, digits)

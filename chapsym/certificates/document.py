@@ -16,6 +16,8 @@ from .balls import NotProved, shortest
 
 #: The object of a certificate, or of a part of it.
 Document = Data
+#: What a sentence on the progress is passed to.
+Say = Callable[[str], None]
 #: The fields that are computed from the others.
 MADE = ("format", "kind", "statement", "digest")
 
@@ -41,7 +43,7 @@ def accepted(document: Document, seconds: float = math.inf) -> Document:
 
 
 def first_accepted(
-    trials: Iterable[int], made: Callable[[int], Document], progress: Callable[[str], None], limit: float, less: str
+    trials: Iterable[int], made: Callable[[int], Document], progress: Say, limit: float, less: str
 ) -> Document:
     """The first certificate that the checker accepts, of those made for it with each of these numbers of bits.
 
@@ -61,7 +63,7 @@ def first_accepted(
     raise why
 
 
-def widest(radii: list[Fraction], found: Callable[[Fraction], Document], progress: Callable[[str], None]) -> Document:
+def widest(radii: list[Fraction], found: Callable[[Fraction], Document], progress: Say) -> Document:
     """The certificate with the largest possible radius, by bisection among radii; smaller radii are easier.
 
     Raises NotProved or checker.Rejected, as `found` for the smallest radius.

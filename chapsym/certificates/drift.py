@@ -6,7 +6,7 @@ the enclosures of the checker (checker/drift.py has the proof).
 
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -21,7 +21,7 @@ from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.start import decade
 
 from .balls import shortest
-from .document import Document, accepted, stated
+from .document import Document, Say, accepted, stated
 
 KIND = "energy-drift"
 #: The steps of the secant method; the window of each step for the time of return.
@@ -33,7 +33,7 @@ class Return(Orbit):
 
     time: Fraction
 
-    def __init__(self, data: Document, progress: Callable[[str], None]):
+    def __init__(self, data: Document, progress: Say):
         super().__init__(data)
         step = self.flow.step
 
@@ -53,7 +53,7 @@ class Return(Orbit):
 
 def energy_drift(
     J: Sequence[Fraction], D: Fraction, momentum: Sequence[Fraction], gamma: Sequence[Fraction], signs: Sequence[int],
-    time: Fraction, varied: int, *, digits: int = 20, progress: Callable[[str], None] = lambda sentence: None,
+    time: Fraction, varied: int, *, digits: int = 20, progress: Say = lambda sentence: None,
 ) -> Document:  # fmt: skip
     """Finds a closed orbit near a start, by adjusting one component of its momentum, and encloses it.
 
@@ -118,7 +118,7 @@ def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[i
     return max(values, key=values.__getitem__)
 
 
-def refined(fields: Document, digits: int, progress: Callable[[str], None]) -> Document:
+def refined(fields: Document, digits: int, progress: Say) -> Document:
     """The fields with the varied component and the time to this many decimals, by the secant method."""
     unit, varied = Fraction(1, 10**digits), STATE.index(fields["varied"])
     momentum = [Fraction(x) for x in fields["start"]["momentum"]]

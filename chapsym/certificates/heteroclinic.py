@@ -6,7 +6,6 @@ again.
 """
 
 import math
-from collections.abc import Callable
 from fractions import Fraction
 
 from flint import arb, ctx
@@ -20,7 +19,7 @@ from chapsym.dynamics.levels.start import decade, fraction
 from chapsym.numbers.precisions import flint_bits
 
 from .balls import decimal, shortest
-from .document import Document, accepted, stated, widest
+from .document import Document, Say, accepted, stated, widest
 from .reduced import Top
 
 KIND = "heteroclinic"
@@ -74,7 +73,7 @@ class Orbits:
 
 def heteroclinic(
     top: Top, *, starts: tuple[Fraction, Fraction] | None = None, digits: int | None = None,
-    radius: Fraction | None = None, progress: Callable[[str], None] = lambda what: None,
+    radius: Fraction | None = None, progress: Say = lambda what: None,
 ) -> Document:  # fmt: skip
     """Finds the certificate that Δ is not constant on the level 1/Λ2 of a top with J1 < J2 < J3, h > 0.
 
@@ -122,7 +121,7 @@ def _bits(digits: int) -> int:
     return math.ceil(digits * 10 / 3) + SPARE_BITS
 
 
-def _digits(top: Top, starts: tuple[Fraction, Fraction], progress: Callable[[str], None]) -> int:
+def _digits(top: Top, starts: tuple[Fraction, Fraction], progress: Say) -> int:
     """The number of decimals with which the two ends differ by SIGNIFICANT digits."""
     digits = 20
     while digits <= MOST_DIGITS:

@@ -8,7 +8,6 @@ on the circle, it would be conjugate to a rotation, and δ would have the same s
 
 import contextlib
 import math
-from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -26,7 +25,7 @@ from chapsym.numbers.precisions import flint_bits
 
 from . import resonance
 from .balls import NotProved, decimals, rounded, shortest
-from .document import Document, accepted, stated, widest
+from .document import Document, Say, accepted, stated, widest
 from .reduced import Reduced, Top, Vector, cross
 from .resonance import Resonance, spare_bits
 
@@ -60,7 +59,7 @@ class Orbit:
 
 def no_invariant_measure(
     top: Top, *, steps: int | None = None, half_turns: int | None = None, level: Fraction | None = None,
-    digits: int | None = None, radius: Fraction | None = None, progress: Callable[[str], None] = lambda what: None,
+    digits: int | None = None, radius: Fraction | None = None, progress: Say = lambda what: None,
 ) -> Document:  # fmt: skip
     """Finds the certificate that G_h of a top preserves no measure with a positive continuous density.
 
@@ -127,21 +126,19 @@ def _least_digits(top: Top, at: Resonance) -> int:
         bits *= 2
         with flint_bits(bits):
             found = [fraction(x.displacement) for x in _orbits(top, at)]
-        least = min(map(abs, found))
-        if least < Fraction(2) ** (spare - bits):
+        if (least := min(map(abs, found))) < Fraction(2) ** (spare - bits):
             continue
         if (found[0] > 0) == (found[1] > 0):
             raise BadInput(
                 f"both displacements are {'positive' if found[0] > 0 else 'negative'}: the level is outside of the "
                 f"plateau of {resonance.turns(at.half_turns)} in {at.steps} steps"
             )
-        digits = max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)
-        if digits <= MOST_DIGITS:
+        if (digits := max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)) <= MOST_DIGITS:
             return digits
     raise BadInput(f"{MOST_DIGITS} digits do not distinguish the displacement on this level from 0")
 
 
-def _arcs(top: Top, at: Resonance, digits: int, progress: Callable[[str], None]) -> int:
+def _arcs(top: Top, at: Resonance, digits: int, progress: Say) -> int:
     """The least power of 2 of arcs for which the checker accepts the branch; raises BadInput if none is found."""
     arcs, reason = FEWEST_ARCS, ""
     while arcs <= MOST_ARCS:
@@ -156,9 +153,7 @@ def _arcs(top: Top, at: Resonance, digits: int, progress: Callable[[str], None])
     raise BadInput(f"the branch is not proved over the whole circle with {MOST_ARCS} arcs: {reason}")
 
 
-def _largest(
-    top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
-) -> Document:
+def _largest(top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Say) -> Document:
     """The certificate with the largest radius, and the fewest digits for it."""
     candidates = [least] if only else list(range(least, min(least + MORE, MOST_DIGITS) + 1))
     radii = _radii(top, at, least) if radius is None else [radius]

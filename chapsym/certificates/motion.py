@@ -1,7 +1,7 @@
 """A certificate of a motion of the continuous ball: the frames of a certified motion, and their start."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from flint import arb
@@ -15,7 +15,7 @@ from chapsym.dynamics.levels.start import decade, fraction
 from chapsym.numbers.precisions import flint_bits
 
 from .balls import shortest
-from .document import Document, first_accepted, stated
+from .document import Document, Say, first_accepted, stated
 
 KIND = "motion"
 #: Bits of the first attempt beyond those of the digits, the increment for the next attempts, and the maximum.
@@ -37,7 +37,7 @@ def check_start(start: Start, frames: int) -> None:
 
 
 def motion(
-    start: Start, found: CertifiedMotion, progress: Callable[[str], None] = lambda what: None, limit: float = math.inf
+    start: Start, found: CertifiedMotion, progress: Say = lambda what: None, limit: float = math.inf
 ) -> Document:
     """The certificate of the frames from a start, accepted by the checker.
 
@@ -97,8 +97,7 @@ def _known(x: arb, bits: int) -> list[str]:
     The certificate defines its start: its proof does not depend on whether a number of a scene was this quotient.
     """
     middle, radius = fraction(x.mid()), fraction(x.rad())
-    simple = middle.limit_denominator(SIMPLE)
-    if abs(simple - middle) <= radius:
+    if abs((simple := middle.limit_denominator(SIMPLE)) - middle) <= radius:
         return [shortest(simple), "0"]
     share = Fraction(1, 2**bits) * max(abs(middle), Fraction(1, 2**bits))
     return _pair(middle, Fraction(10) ** (decade(max(share, 8 * radius)) + 1))

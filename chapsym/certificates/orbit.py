@@ -5,7 +5,6 @@ Newton's method finds it, with as many bits as the checker needs for its proof.
 """
 
 import math
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -22,7 +21,7 @@ from chapsym.numbers.precisions import flint_bits
 
 from . import families
 from .balls import NotProved, rounded, shortest, simplest
-from .document import MADE, Document, accepted, stated, widest
+from .document import MADE, Document, Say, accepted, stated, widest
 from .families import Member
 from .passage import Level, Map, Passage, Vector, identity
 
@@ -40,7 +39,7 @@ GROWTH = 4
 def periodic_orbit(
     J: tuple[Fraction, Fraction, Fraction], D: Fraction, size: Fraction, steps: int, height: Fraction | None = None,
     digits: int | None = None, attracting: bool = False, radius: Fraction | None = None,
-    progress: Callable[[str], None] = lambda what: None,
+    progress: Say = lambda what: None,
 ) -> Document:  # fmt: skip
     """Finds the certificate of an orbit of this many steps, not symmetric, with det DG^q < 1 and without an eigenvalue
     1.
@@ -73,7 +72,7 @@ def periodic_orbit(
             bits = 2 * bits
 
 
-def _with_radius(found: Document, radius: Fraction | None, steps: int, progress: Callable[[str], None]) -> Document:
+def _with_radius(found: Document, radius: Fraction | None, steps: int, progress: Say) -> Document:
     """The certificate for all numbers within a radius, which must be 0 if a component of J is 0."""
     if radius == 0 or (radius is None and min(map(Fraction, found["ball"]["J"])) == 0):
         return found
@@ -109,9 +108,7 @@ def _check(
         Map.of(Level((J[0], J[1], J[2]), D, size, Fraction(0)))  # the bound of the lemma
 
 
-def _found(
-    level: Level, steps: int, height: Fraction | None, attracting: bool, progress: Callable[[str], None]
-) -> tuple[Level, Member]:
+def _found(level: Level, steps: int, height: Fraction | None, attracting: bool, progress: Say) -> tuple[Level, Member]:
     """The level of the widest suitable family, and a member near it."""
     best: tuple[Fraction, Level, Member] | None = None
     with flint_bits(SEARCH_BITS):

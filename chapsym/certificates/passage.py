@@ -64,8 +64,7 @@ class Map:
 
     def __init__(self, J: Vector, D: arb, size: arb) -> None:
         self.inertia, self.D = (J[1] + J[2], J[0] + J[2], J[0] + J[1]), D
-        bound = certified(size.sqrt(), self.inertia)
-        if bound is None:
+        if (bound := certified(size.sqrt(), self.inertia)) is None:
             raise BadInput("|momentum| is beyond the bound of the lemma small-branch, so no step is certified")
         self.radius, self.monotone = bound
 
@@ -96,8 +95,7 @@ class Map:
 
     def root(self, k: Vector, g: Vector) -> tuple[Vector, arb_mat]:
         """The root |u| < 1 of G for all k and γ in their balls, by lemma `small-branch`, and (∂G/∂u)⁻¹ there."""
-        near = near_root(k, g, self.inertia, self.D)
-        if not upper(near) <= self.radius:
+        if not upper(near := near_root(k, g, self.inertia, self.D)) <= self.radius:
             raise NotProved("a step is not near its root")
         state = (*k, *g, *self.inertia, self.D)
         u = newton_enclosure(near, gibbs_residual(*(*near, *state)), self.monotone, state, ctx.prec)

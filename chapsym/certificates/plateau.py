@@ -7,7 +7,6 @@ to the range of levels, is about the q-th power of the nome.  Nothing here is pr
 
 import contextlib
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -20,6 +19,7 @@ from chapsym.dynamics.levels.start import exponent_of, fraction
 from chapsym.numbers.precisions import flint_bits
 
 from .balls import NotProved
+from .document import Say
 from .reduced import Axes, Reduced, Top, angle, cross
 
 #: The trial levels have x/(1 - x) = e^t for this many t up to ±REACH, x from the separatrix to the axis.
@@ -48,7 +48,7 @@ class Staircase:
         return None
 
 
-def staircases(top: Top, steps: int, progress: Callable[[str], None]) -> list[Staircase]:
+def staircases(top: Top, steps: int, progress: Say) -> list[Staircase]:
     """The circles around both axes, except those without a step."""
     found = []
     for axes in top.sides():
@@ -81,8 +81,7 @@ def refined(top: Top, ends: tuple[Fraction, Fraction], axes: Axes, steps: int, t
     (low, high), off = ends, [math.inf, math.inf]
     for _ in range(LOOK_BITS):
         middle = (low + high) / 2
-        found = half_turns(top, middle, axes, steps)[-1] - turns
-        if found < 0:
+        if (found := half_turns(top, middle, axes, steps)[-1] - turns) < 0:
             low, off[0] = middle, -found
         else:
             high, off[1] = middle, found

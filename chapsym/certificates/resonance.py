@@ -1,7 +1,6 @@
 """Search for a circle on which G_h turns by p half turns in q steps: on both sides, or on a given level."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -12,6 +11,7 @@ from chapsym.numbers.precisions import flint_bits
 
 from . import plateau
 from .balls import simplest
+from .document import Say
 from .reduced import Axes, Reduced, Top
 
 #: The bits beyond the digits, for the growth of the balls in a step, and to decide how numbers round.
@@ -35,7 +35,7 @@ class Resonance:
     arcs: int = 0
 
 
-def find(top: Top, steps: int | None, half_turns: int, progress: Callable[[str], None]) -> Resonance:
+def find(top: Top, steps: int | None, half_turns: int, progress: Say) -> Resonance:
     """The simplest level in the middle of the plateau with this rotation number; by default with the fewest steps.
 
     Raises BadInput if there is none, or if it is too narrow.
@@ -45,9 +45,7 @@ def find(top: Top, steps: int | None, half_turns: int, progress: Callable[[str],
     return Resonance(axes, _middle(top, near, axes, steps, starts, progress), steps, half_turns, starts)
 
 
-def _circle(
-    top: Top, steps: int | None, half_turns: int, progress: Callable[[str], None]
-) -> tuple[Axes, tuple[Fraction, Fraction], int]:
+def _circle(top: Top, steps: int | None, half_turns: int, progress: Say) -> tuple[Axes, tuple[Fraction, Fraction], int]:
     """The axes of the circle with the larger displacement, two levels near it, and the steps."""
     sides = plateau.staircases(top, steps or plateau.LOOK_STEPS, progress)
     numbers = [steps] if steps else [q for q in range(3, plateau.LOOK_STEPS + 1, 2) if math.gcd(q, half_turns) == 1]
@@ -95,11 +93,10 @@ def on_level(top: Top, level: Fraction, steps: int | None, half_turns: int | Non
 
 def _middle(
     top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, starts: tuple[str, str],
-    progress: Callable[[str], None],
+    progress: Say,
 ) -> Fraction:  # fmt: skip
     """The simplest level in the middle half of the plateau, at a precision that is doubled until it is resolved."""
-    power = plateau.nome_power(top, near[0], axes, steps)
-    if not math.isfinite(power):
+    if not math.isfinite(power := plateau.nome_power(top, near[0], axes, steps)):
         raise BadInput("the moments of inertia are too far apart for the search")
     bits = math.ceil(-power) + spare_bits(steps)
     while bits < MOST_DIGITS * 10 // 3:

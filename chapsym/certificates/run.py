@@ -1,7 +1,6 @@
 """A certificate of the distance of a run of the map in float64 from the exact orbit."""
 
 import math
-from collections.abc import Callable
 from decimal import ROUND_CEILING, Context
 from fractions import Fraction
 
@@ -12,16 +11,14 @@ from chapsym.dynamics import BadInput, Trajectory
 from chapsym.numbers import Double
 
 from .balls import shortest
-from .document import Document, first_accepted, stated
+from .document import Document, Say, first_accepted, stated
 
 KIND = "map-run"
 #: Bits for numbers of size 1 and their bounds, and bits per step, in the order of the trials.
 GUARD, A_STEP = 128, (2.5, 4.0, 8.0, 24.0)
 
 
-def map_run(
-    run: Trajectory, progress: Callable[[str], None] = lambda sentence: None, limit: float = math.inf
-) -> Document:
+def map_run(run: Trajectory, progress: Say = lambda sentence: None, limit: float = math.inf) -> Document:
     """The certificate of a run of one ball in float64 with proved bounds, accepted by the checker.
 
     The checker follows the orbit from the start in integers and compares each frame with it.  Raises BadInput for other

@@ -137,8 +137,7 @@ class Package:
             try:
                 files[f"{kernel.name}.py"], rows[kernel.name] = self.source(kernel)
             except Rejected as error:
-                said = str(error)
-                if not said.startswith(f"{kernel.name} "):  # by its text or its carriers
+                if not (said := str(error)).startswith(f"{kernel.name} "):  # by its text or its carriers
                     said = f"{kernel.name}: {said.replace('the certificate has', 'it makes')}; divide less in it"
                 raise ArithmeticError(said) from None
         table = {"kernels": rows}

@@ -216,8 +216,7 @@ class Printer:
                 kind = self.names[name] if name not in self.within else None
                 return self.within.get(name) or Text("1" if kind == "1" else name, kind)
             case ast.Attribute(value=value, attr="high" | "low" as half):
-                of = self.expression(value)
-                if of.kind == "e" and half == "high":
+                if (of := self.expression(value)).kind == "e" and half == "high":
                     return Text(of.text, "r", of.level)
                 if of.kind not in ("p", "q"):
                     raise TypeError(f"{ast.unparse(value)} is no pair")
@@ -232,8 +231,7 @@ class Printer:
             case ast.BinOp(left=left, op=op, right=right):
                 return self.operation(self.expression(left), op, self.expression(right))
             case ast.UnaryOp(op=ast.Not() | ast.USub() as op, operand=operand):
-                of = self.expression(operand)
-                if of.kind in ("p", "q"):
+                if (of := self.expression(operand)).kind in ("p", "q"):
                     return self.halves(of, "-{}")
                 sign = "!" if isinstance(op, ast.Not) else "-"
                 of = Text(of.text, "i") if of.kind == "1" else of
@@ -415,8 +413,7 @@ class Printer:
 
     def call(self, func: ast.expr, arguments: Sequence[ast.expr]) -> Text:
         """A call expression."""
-        callee = self.callee(func)
-        if callee == "normalised":
+        if (callee := self.callee(func)) == "normalised":
             return self.normalised(self.expression(func.value))  # type: ignore[attr-defined]
         if callee == "reshape":
             array, shape = func.value, arguments[0].elts  # type: ignore[attr-defined]
@@ -708,8 +705,7 @@ class Printer:
 
     def allocate(self, name: str, node: ast.Call) -> None:
         """A new array: empty, zero or the identity, or a copy of a column of a matrix."""
-        callee = self.callee(node.func)
-        if callee == "copy":
+        if (callee := self.callee(node.func)) == "copy":
             column: Any = node.func.value  # type: ignore[attr-defined]
             rows, index = column.slice.elts
             matrix, at = self.expression(column.value).text, self.expression(index).text
@@ -785,8 +781,7 @@ class Printers(dict[Function, Printer]):
     def special(self, function: Function, given: Sequence[Text]) -> Function:
         """The function for these kinds."""
         variant = "_" + c_type(tuple(x.kind for x in given))[2:]
-        key = function, variant
-        if key not in self.specialised:
+        if (key := (function, variant)) not in self.specialised:
             self.specialised[key] = Function(function.module, function.node, variant)
         return self.specialised[key]
 

@@ -389,8 +389,7 @@ def interface(
     functions = texts.program.module("chapsym.generated").functions
     declared, defined = list[str](), list[str]()
     for kernel in sorted(kernels, key=lambda k: k.name):
-        function = functions[kernel.name]
-        if function not in texts.groups:
+        if (function := functions[kernel.name]) not in texts.groups:
             defined.append(texts.written(function))
         parameters, given = [], []
         for name, symbols in kernel.groups:

@@ -188,8 +188,7 @@ class WordAlgebra:
         """
         total = sp.S.Zero
         for c, word in _terms(self.normal(expr)):
-            places = [i for i, letter in enumerate(word) if letter == xi]
-            if len(places) != 1:
+            if len(places := [i for i, letter in enumerate(word) if letter == xi]) != 1:
                 raise ValueError(f"the expression is not linear in {xi}")
             total += c * sp.Mul(*(word[places[0] + 1 :] + word[: places[0]]))
         return self.normal(total - self.transpose(total))
@@ -234,8 +233,7 @@ def _pairs(expr: sp.Expr) -> list[tuple[sp.Expr, Word]]:
             if not (base.is_Symbol and power.is_Integer and power > 0):
                 raise ValueError(f"not a word: {term}")
             word += [base] * int(power)
-        coefficient = sp.Mul(*commuting)
-        if coefficient != 0:
+        if (coefficient := sp.Mul(*commuting)) != 0:
             found.append((coefficient, tuple(word)))
     return found
 

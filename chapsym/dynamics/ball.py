@@ -108,8 +108,7 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
 
 def beyond_float64(value: ArrayLike) -> bool:
     """Whether float64 may be unable to represent these numbers: objects, integers beyond 2⁵³, long doubles."""
-    array = np.asarray(value)
-    if array.dtype == FLOAT64:
+    if (array := np.asarray(value)).dtype == FLOAT64:
         return False
     if array.dtype.kind in "iu":
         return bool((array > LARGEST_INTEGER).any() or (array < -LARGEST_INTEGER).any())
@@ -151,8 +150,7 @@ def one_of(value: Text, name: str, *choices: Text) -> Text:
     """One of these texts; raises BadInput for anything else."""
     if value is choices[0]:
         return value
-    text = plain_text(value)
-    if text not in choices:
+    if (text := plain_text(value)) not in choices:
         listed = '" or "'.join(choices)
         raise BadInput(f'{name} must be "{listed}", not {brief(value)}')
     return choices[choices.index(text)]
@@ -525,8 +523,7 @@ def rounded_by(inertia: Any) -> float:
     if not all(isinstance(x, float) and isfinite(x) for x in entries):
         return 0.0
     entries = [float(x) for x in entries]  # NumPy's floats have another repr
-    broken = [x for x in entries if x != round(x)]
-    if not broken:
+    if not (broken := [x for x in entries if x != round(x)]):
         return 0.0
     largest = max(map(abs, entries))
     digits = max(len(Decimal(repr(x)).normalize(decimals(17)).as_tuple().digits) for x in broken)

@@ -287,8 +287,7 @@ def _check_up(attitude: Sequence[Fraction], gamma: Sequence[Fraction]) -> None:
     """Raises BadInput unless the quaternion turns γ up, to rounding."""
     from chapsym import generated
 
-    square = sum(x * x for x in attitude)
-    if not square:
+    if not (square := sum(x * x for x in attitude)):
         raise BadInput("attitude must not be 0: it is a unit quaternion, scalar first")
     off = [float(x / square - y) for x, y in zip(generated.rotation(*attitude)[6:], gamma, strict=True)]
     if max(map(abs, off)) > 1e-5:
@@ -437,8 +436,7 @@ def _missing(frame: Frame, digits: int, radius: Fraction | None) -> float:
     """The number of bits that the radii still lack; at most 0 if they are small enough."""
     worst = -math.inf
     for name, vector in frame.items():
-        widest = fraction(max(x.rad() for x in vector))
-        if not widest:
+        if not (widest := fraction(max(x.rad() for x in vector))):
             continue
         if name in ("angular_momentum", "omega"):
             size = fraction(max(abs(x.mid()) for x in vector))

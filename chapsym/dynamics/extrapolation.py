@@ -197,8 +197,7 @@ def extrapolate(
     >>> bool(end.doubt < 1e-8)
     True
     """
-    level = precision_of(precision)
-    if not isinstance(level, Double | DoubleDouble):
+    if not isinstance(level := precision_of(precision), Double | DoubleDouble):
         raise BadInput('long steps have the precisions "double" and "double-double"')
     of_pairs = isinstance(level, DoubleDouble)
     most = MOST_OF_PAIRS if of_pairs else MOST_COLUMNS

@@ -207,8 +207,7 @@ class Equations(NamedTuple):
         def slope(box: Vector) -> Vector:
             return parts_of(self.slope(*(a + b for a, b in zip(x, box, strict=True)), *known))
 
-        image = isolated(parts_of(self.function(*x, *known)), slope)
-        if image is None:
+        if (image := isolated(parts_of(self.function(*x, *known)), slope)) is None:
             raise BadInput("a root is not proved here: more bits are needed, or it is singular")
         return [a + b for a, b in zip(x, image, strict=True)]
 

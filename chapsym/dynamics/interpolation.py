@@ -91,15 +91,13 @@ class States:
     @np.errstate(over="ignore", under="ignore", invalid="ignore")  # a damaged frame may have any numbers
     def at(self, times: ArrayLike) -> Moments:
         """The states at these times, by quintics; raises BadInput for times out of range and frames too far apart."""
-        given = numbers(times, "times")
-        if given.ndim > 1:
+        if (given := numbers(times, "times")).ndim > 1:
             raise BadInput(f"times must be one number or a list of them, not an array with the axes {given.shape}")
         asked, first, last = np.atleast_1d(given), float(self.clock[0]), float(self.clock[-1])
         wanted = np.clip(asked, first, last)
         if (np.abs(wanted - asked) > ROUNDED * max(abs(first), abs(last))).any():
             raise BadInput(f"times must lie between the first frame and the last, {first} and {last}")
-        turn = self.turning()
-        if not turn <= MOST_TURN:
+        if not (turn := self.turning()) <= MOST_TURN:
             raise BadInput(
                 f"frames are up to {turn:.3g} radians of turning apart, too far to tell what is between (at most "
                 f"{MOST_TURN}): keep more frames, with a smaller `every`"

@@ -109,8 +109,7 @@ class Oracle:
             trial = min(mp.mpf(1), t + dt)
             # On the way a root need only be a guess for the next; the last root gets all digits.
             enough = mp.mpf(10) ** (-self.digits // 2 - 8) if trial == 1 else mp.mpf("1e-12")
-            moved = self._newton(rotation, trial * target, enough)
-            if moved is None:
+            if (moved := self._newton(rotation, trial * target, enough)) is None:
                 dt /= 2
                 if not dt >= mp.mpf(10) ** (-self.digits // 2):
                     raise OracleFailed(f"the branch folds at {mp.nstr(t, 12)} of the momentum")
@@ -132,8 +131,7 @@ class Oracle:
                 xi = mp.lu_solve(self.tangent(rotation), mp.matrix(gap))
             except ZeroDivisionError:
                 return None
-            size = mp.norm(xi)
-            if size > largest:
+            if (size := mp.norm(xi)) > largest:
                 return None
             half = self.skew(list(xi / 2))
             rotation = rotation * (mp.inverse(one - half) * (one + half))

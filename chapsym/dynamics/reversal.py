@@ -185,8 +185,7 @@ def _strayed(run: Trajectory, error: Floats) -> list[tuple[tuple[int, ...], int]
     found = []
     for ball in map(tuple, np.argwhere((error > FAR).any(axis=-1)).tolist()):
         frame = int(np.flatnonzero(error[ball] > FAR).max())
-        step = _last_not_undone(run, ball, frame)
-        if step is not None:
+        if (step := _last_not_undone(run, ball, frame)) is not None:
             found.append((ball, int(run.index[frame]) + step))
     return found
 

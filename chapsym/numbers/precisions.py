@@ -295,8 +295,7 @@ class Enclosure(Precision):
         return arb(fmpq(value.numerator, value.denominator))
 
     def write(self, value: Any) -> str:
-        text = value.str(self.digits + 2, radius=True)
-        if not text.startswith("["):
+        if not (text := value.str(self.digits + 2, radius=True)).startswith("["):
             return f"[{text} +/- 0]"
         return text.replace("[+/-", "[0 +/-")
 

@@ -300,8 +300,7 @@ class _Maker:
         for i, algebra in enumerate(self.algebras):
             if algebra["kind"] != "quotient":
                 words, symbols = self._sources[i]
-                exact = witness.matrices(set(symbols), words, self.proof.examples)
-                if exact is not None:
+                if (exact := witness.matrices(set(symbols), words, self.proof.examples)) is not None:
                     self._point(exact)
         kept = [example for example in self.counterexamples if example["refutes"]]
         for one in self.statements:
@@ -390,8 +389,7 @@ class _Maker:
         """The point, and the cofactors of an equation in a quotient ring."""
         algebra, symbols = self._sources[one["algebra"]]
         if isinstance(algebra, WordAlgebra):
-            exact = witness.matrices(set(symbols), algebra, self.proof.examples)
-            if exact is None:
+            if (exact := witness.matrices(set(symbols), algebra, self.proof.examples)) is None:
                 raise NotFound("no matrices are known for which its rules hold")
             return {"point": self._point(exact)}
         return {"cofactors": self._cofactors(one), "point": self._good_point(one, symbols, algebra.relations)}

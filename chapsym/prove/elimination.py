@@ -50,8 +50,7 @@ def eliminate(equations: tuple[Key, ...], size: int) -> Elimination:
     for chart in itertools.islice(_charts(size), CHARTS):
         places = [sum((x * c for c, x in zip(row, ring.gens(), strict=True)), ring.constant(0)) for row in chart]
         forms = [_value(dict(e), places, ring.constant(1)) for e in equations]
-        found = _combinations(forms, size)
-        if found is None:
+        if (found := _combinations(forms, size)) is None:
             continue
         rows = [_linear(combination, forms, size) for combination in found[: size - 1]]
         cofactors = _cofactors(rows[:-1])
@@ -86,8 +85,7 @@ def _value(form: Form, places: Sequence[Any], one: Any) -> Any:
 
 def _combinations(forms: Sequence[fmpq_mpoly], size: int) -> list[list[dict[Monomial, int]]] | None:
     """The forms linear in y1, ..., y(n-1), and for each of these a power of it at y0 = 0 and later y = 0."""
-    powers = [_power(forms, i, size) for i in range(size - 1, 0, -1)]
-    if None in powers:
+    if None in (powers := [_power(forms, i, size) for i in range(size - 1, 0, -1)]):
         return None
     linear: dict[int, list[dict[Monomial, int]]] = {}
     for degree in range(1, MOST_DEGREE + 1):
@@ -127,8 +125,7 @@ def _reduced(
     matrix = fmpq_mat(len(multiples), width + len(multiples))
     for row, (form, m) in enumerate(multiples):
         for monomial, c in forms[form].terms():
-            product = tuple(a + b for a, b in zip(m, monomial, strict=True))
-            if product in columns:
+            if (product := tuple(a + b for a, b in zip(m, monomial, strict=True))) in columns:
                 matrix[row, columns[product]] = c
         matrix[row, width + row] = fmpq(1)
     reduced, rank = matrix.rref()

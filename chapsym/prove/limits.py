@@ -82,8 +82,7 @@ def tends(text: str, expression: sp.Expr, along: sp.Symbol, order: int, to: Side
         rest, below = _rest(in_sympy(entry), along, order)
         left.append(entry)
         right.append(along**order * end + along ** (order + 1) * rest / below.as_expr())
-        start = below.nth(0)
-        if start.free_symbols:
+        if (start := below.nth(0)).free_symbols:
             later = sp.cancel((below.as_expr() - start) / along)
             left.append(below.as_expr() / start)
             right.append(1 + along * later / start)
@@ -99,8 +98,7 @@ def _rest(expression: sp.Expr, along: sp.Symbol, order: int) -> tuple[sp.Expr, s
         above, below = (sp.Poly(part, along) for part in sp.fraction(sp.cancel(expression)))
     except sp.PolynomialError:
         raise ValueError(f"{expression} is not a rational function of {along}") from None
-    start = below.nth(0)
-    if start == 0:
+    if (start := below.nth(0)) == 0:
         raise ArithmeticError(f"there is no limit: the expression has a pole where {along} is 0")
     found: list[sp.Expr] = []
     for k in range(order + 1):

@@ -148,8 +148,7 @@ def _on_line(relation: sp.Expr, own: Sequence[sp.Symbol], values: Exact, draw: D
     for x in own:
         if whole.degree(x) == 1:
             chosen = {y: _number(draw(y)) for y in own if y != x}
-            one = sp.Poly(left.xreplace(chosen), x)
-            if one.degree() == 1:
+            if (one := sp.Poly(left.xreplace(chosen), x)).degree() == 1:
                 return chosen | {x: -one.nth(0) / one.nth(1)}
     terms = [(powers, _fraction(c)) for powers, c in whole.terms()]
     for _ in range(MOST_LINES):

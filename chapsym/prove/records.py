@@ -78,8 +78,7 @@ def read(path: Path) -> dict[str, Data]:
     if last and (_parsed(last) or not lines):  # otherwise the computer stopped while it was added
         lines.append(last)
     for number, line in enumerate(lines, start=1):
-        record = _parsed(line)
-        if record is None:
+        if (record := _parsed(line)) is None:
             raise BrokenRecords(f"line {number} of {path} is not a verdict record; delete the file to start anew")
         records[record["id"]] = record
     return records

@@ -178,13 +178,11 @@ class Register:
 
     def _head(self) -> ModuleType:
         """The package of the scripts: that of this name, or a new one for the folder."""
-        path = self._path()
-        if path is None:
+        if (path := self._path()) is None:
             return self._package()
         if path.is_file() and path.suffix != ".py":
             raise NoRegister(f"{self.place} is no Python script; a register is a folder of scripts, or one")
-        name = f"claims_of_{self.key}"
-        if name not in sys.modules:
+        if (name := f"claims_of_{self.key}") not in sys.modules:
             folder, init = path if path.is_dir() else path.parent, path / "__init__.py"
             spec: ModuleSpec | None = ModuleSpec(name, None, is_package=True)
             if init.is_file():
@@ -217,8 +215,7 @@ class Register:
         path = self._path()
         if path is not None and path.is_file():
             return [f"{head.__name__}.{path.stem}"]
-        names = _listed(head, "SCRIPTS")
-        if names is None:
+        if (names := _listed(head, "SCRIPTS")) is None:
             found = sorted(one for folder in head.__path__ for one in Path(folder).glob("[!_]*.py"))
             names = [one.stem for one in found if one.stem != KERNELS]
         return [f"{head.__name__}.{name}" for name in names]

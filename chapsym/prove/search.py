@@ -46,8 +46,7 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     >>> counterexample(equal("x + y = 1", x + y, 1), x > 0).values
     {'x': '4/5', 'y': '-3/5'}
     """
-    ring = statement.algebra
-    if not isinstance(ring, Quotient):
+    if not isinstance(ring := statement.algebra, Quotient):
         raise TypeError(f"a counterexample is looked for in a quotient ring, which «{statement.text}» is not in")
     if statement.holds():
         raise ArithmeticError(f"«{statement.text}» holds in its ring, so there is no counterexample")

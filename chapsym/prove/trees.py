@@ -108,8 +108,7 @@ def _simple(operation: str, parts: list[Any], found: Callable[[Ratio | int], Tre
 def factored(polynomial: Terms, names: Sequence[str]) -> Tree:
     """The tree of a polynomial {exponents: coefficient}, factored and nested, which is short for many terms."""
     context = fmpq_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
-    coefficients = {m: fmpq(int(c.numerator), int(c.denominator)) for m, c in polynomial.items()}
-    if not coefficients:
+    if not (coefficients := {m: fmpq(int(c.numerator), int(c.denominator)) for m, c in polynomial.items()}):
         return 0
     constant, factors = context.from_dict(coefficients).factor()
     parts: list[Tree] = [] if constant == 1 else [number(constant)]

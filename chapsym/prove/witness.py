@@ -91,8 +91,7 @@ def allowed(point: Values, assumed: Sequence[Comparison]) -> bool:
 
 def _point(equation: Equation, case: str, examples: Examples) -> Exact | None:
     """The values of the symbols of the algebra of an equation in a case; None if the case does not apply."""
-    algebra = equation.algebra
-    if isinstance(algebra, Quotient):
+    if isinstance(algebra := equation.algebra, Quotient):
         return _rational(algebra.symbols, algebra.relations, case, examples)
     if isinstance(algebra, Traces):
         algebra = algebra.algebra
@@ -135,8 +134,7 @@ def searched(symbols: set[sp.Symbol], algebra: WordAlgebra) -> Iterator[Exact]:
     letters = sorted((x for x in symbols if not x.is_commutative), key=str)
     numbers = {x: sp.Integer(i + 2) for i, x in enumerate(sorted(symbols - set(letters), key=str))}
     for n in sorted(rows, reverse=True) or (3, 2, 1):
-        point = numbers | dict(given) | _by_kind(letters, algebra, n)
-        if _sound(point, algebra):
+        if _sound(point := numbers | dict(given) | _by_kind(letters, algebra, n), algebra):
             yield point
             continue
         failing = sorted({x for pair in algebra.rules for x in pair if x not in given}, key=str)

@@ -19,8 +19,7 @@ HERE = Path(__file__).resolve().parent
 
 def real(x: Fraction) -> str:
     """A rational number: a decimal if it is one, else a quotient."""
-    digits = next((n for n in range(400) if 10**n % x.denominator == 0), None)
-    if digits is None:
+    if (digits := next((n for n in range(400) if 10**n % x.denominator == 0), None)) is None:
         return f"({x.numerator} / {x.denominator})"
     whole = str(abs(x.numerator) * (10**digits // x.denominator))
     text = f"{whole}e-{digits}" if len(whole) + 8 < digits else f"{Decimal(f'{whole}e-{digits}'):f}"

@@ -128,8 +128,7 @@ class TopMotion(Brief):
         _one(ball, K)
         if float(ball.D) != 0.0:
             raise BadInput("a ball with D > 0 is no free top")
-        largest = float(np.abs(K).max())
-        if largest == 0.0:
+        if (largest := float(np.abs(K).max())) == 0.0:
             raise BadInput("the momentum must not vanish: a ball at rest stays where it is")
         exponent = int(np.frexp(largest)[1])
         scaled = np.ldexp(K, -exponent)
@@ -374,8 +373,7 @@ def _scaled(motion: TopMotion) -> tuple[Floats, Floats, float]:
 
 def _series(motion: TopMotion) -> Floats:
     """The sines of P from the rate at equal steps of u over half the period."""
-    curve = motion.curve
-    if curve.modulus == 0.0:
+    if (curve := motion.curve).modulus == 0.0:
         return np.zeros(0)
     count, (tensor, moments, unit) = FEWEST, _scaled(motion)
     while count <= MOST:
@@ -669,8 +667,7 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     K, g = numbers(momentum, "momentum", 3), unit_vertical(gamma)
     if (in_principal_axes(ball).D.shape, ball.mass_tensor.shape, K.shape, g.shape) != ((), (3,), (3,), (3,)):
         raise BadInput("an exact top is made for one ball, one momentum and one gamma")
-    largest = float(np.abs(K).max())
-    if largest == 0.0:
+    if (largest := float(np.abs(K).max())) == 0.0:
         raise BadInput("the momentum must not vanish: a ball at rest stays where it is")
     contact, unit = float(ball.D), K / largest
     size = largest * float(np.sqrt(unit @ unit))

@@ -269,8 +269,7 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     """
     if numbers(height, "height").ndim:
         raise BadInput("a rotation number is of one height, not of a batch")
-    curve = Curve.through(ball, gamma)
-    if curve.complement == 0.0:
+    if (curve := Curve.through(ball, gamma)).complement == 0.0:
         raise BadInput("on the separatrix there is no turn, so no rotation number")
     start = float(curve.argument(gamma))
     step_vertical(ball, height, gamma)  # raises if there is no step

@@ -110,8 +110,7 @@ class Defects(NamedTuple):
 def defects(p: Polynomials, w: Polynomials, k: Vector, body: Body, degree: int) -> Defects:
     """The defects of exact polynomials p and w, R cut to a degree; raises TooWide where |p| may be far from 1."""
     off = dot_four(p, p) - 1
-    most = bound([off])
-    if not most < 0.5:
+    if not (most := bound([off])) < 0.5:
         raise TooWide
     unit = 1 / (1 + arb(0, most))
     turned = generated.compose(*(*p, 0, *w))

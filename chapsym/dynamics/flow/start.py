@@ -137,8 +137,7 @@ def principal(tensor: Sequence[Balls]) -> Principal:
 
 def principal_exactly(rows: Sequence[Sequence[Fraction]]) -> Principal:
     """`principal` of a symmetric matrix of rational numbers, of which two moments may be equal."""
-    round_ = _round(rows)
-    if round_ is None:
+    if (round_ := _round(rows)) is None:
         return principal([balls(row) for row in rows])
     twice, once, axis = round_
     least_ = min(range(3), key=lambda i: abs(axis[i]))  # the axis that is farthest from this one

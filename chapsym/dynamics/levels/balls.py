@@ -465,8 +465,7 @@ class DigitsBall(_UnderWay):
 
     def _gibbs(self, k: Vector, bound: float, past: deque[FloatVector]) -> Vector | None:
         """The Gibbs vector, if `small-branch` or `straight-path` proves that it is that of the branch; else None."""
-        found = self._root(k, past) if bound >= 0.0 or bound == BEYOND else None
-        if found is None:
+        if (found := self._root(k, past) if bound >= 0.0 or bound == BEYOND else None) is None:
             past.clear()
             return None
         u, start = found
@@ -486,8 +485,7 @@ class DigitsBall(_UnderWay):
     def _rotation(self, k: Vector) -> Vector:
         """The refined rotation if neither lemma holds."""
         K = tuple(2 * x for x in k)
-        q = refined(self._near(K, self.g), K, self.g, self.J, (self.D,))
-        if q is None:
+        if (q := refined(self._near(K, self.g), K, self.g, self.J, (self.D,))) is None:
             raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
         return q
 
@@ -538,8 +536,7 @@ class ArbBall(_UnderWay):
 
         k: that of the followed point; every: k, γ, I and D of all states.
         """
-        found = self._root(k, past)
-        if found is None:
+        if (found := self._root(k, past)) is None:
             return None
         u, start = found
         with flint_bits(self.matrix_bits):

@@ -103,8 +103,7 @@ def certified(size: arb, inertia: Vector) -> tuple[arb, arb] | None:
     ⟨x, (∂G/∂u)x⟩ ≥ m|x|².
     """
     least = lowest(*inertia)
-    size = size.abs_upper()
-    if not size < least:
+    if not (size := size.abs_upper()) < least:
         return None
     slope = (highest(*inertia) - least) / 2 + size
     inner = size / (least + (least * least - size * size).sqrt())
@@ -124,8 +123,7 @@ def refined(q: Vector, K: Vector, g: Vector, J: Vector, D: Vector) -> Vector | N
     for _ in range(MOST_REFINEMENTS):
         r = residual(*q, *K, *g, *J, *D)
         w = tuple((-x).mid() for x in product(inverse(q, g, J, *D)[1], r))  # q becomes q ∘ (1, w)
-        change = max(abs(x) for x in w)
-        if not change < NEAR:
+        if not (change := max(abs(x) for x in w)) < NEAR:
             return None
         q = tuple(x.mid() for x in unit(compose(*(*q, arb(1), *w))))
         if change <= max(abs(x) for x in q[1:]) * settled:
@@ -142,8 +140,7 @@ def unit(v: Iterable[arb]) -> Vector:
 
 def enclosed(q: Vector, K: Vector, g: Vector, J: Vector, D: Vector) -> Vector | None:
     """Balls that contain the unit Euler parameters of the root near the float64 root, by the interval Newton test."""
-    point = refined(q, K, g, J, D)
-    if point is None:
+    if (point := refined(q, K, g, J, D)) is None:
         return None
     q = point
     # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.

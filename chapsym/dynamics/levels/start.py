@@ -34,8 +34,7 @@ def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
     scale = Fraction(2) ** -exponent_of(max(moments) + D)
     J, D, K = [x * scale for x in J], D * scale, [x * scale for x in K]
     factor = Fraction(1)
-    largest = max(map(abs, K))
-    if largest > HUGE:  # no rotation has such a momentum; it would overflow in floats
+    if (largest := max(map(abs, K))) > HUGE:  # no rotation has such a momentum; it would overflow in floats
         factor = Fraction(2) ** (10 - exponent_of(largest))
         K = [x * factor for x in K]
     least = min((x for x in moments if x > 0), default=Fraction(1)) * scale

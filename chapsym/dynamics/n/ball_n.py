@@ -144,8 +144,7 @@ def axial(matrix: ArrayLike) -> Floats:
 @np.errstate(under="ignore")
 def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
     """`value` as exactly skew matrices, (..., n, n); raises BadInput if it is not skew to 1e-12."""
-    array = numbers(value, name)
-    if array.shape[-2:] != (n, n):
+    if (array := numbers(value, name)).shape[-2:] != (n, n):
         raise BadInput(f"{name} must be skew matrices of the shape (..., {n}, {n}), not {array.shape}")
     with np.errstate(over="ignore", under="ignore"):
         off, largest = np.abs(array / 2 + array.mT / 2), np.abs(array)
@@ -222,8 +221,7 @@ def initial_attitudes(attitude: bool | ArrayLike, gamma: Floats, shape: tuple[in
     n = gamma.shape[-1]
     if is_flag(attitude):
         return attitudes_with(gamma)
-    R = numbers(attitude, "attitude")
-    if R.shape[-2:] != (n, n):
+    if (R := numbers(attitude, "attitude")).shape[-2:] != (n, n):
         raise BadInput(f"attitude must be rotations of the shape (..., {n}, {n}), not {R.shape}")
     R = over_states(R, "attitude", shape, 2).reshape(-1, n, n)
     if (np.abs(R) > 2).any() or (np.abs(R @ R.mT - np.eye(n)) > AGREEMENT).any() or (np.linalg.det(R) < 0).any():

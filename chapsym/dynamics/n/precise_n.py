@@ -67,8 +67,7 @@ def _rotations(K: Any, gamma: Any, J: Any, D: Any) -> tuple[Any, np.ndarray, Flo
     E = rough.astype(object)
     for i in np.flatnonzero(status == Status.TAKEN):
         one = slice(i, i + 1)
-        found = _refined(_exactly(rough[one]), *(_middle(x[one]) for x in (K, gamma, J, D)))
-        if found is None:
+        if (found := _refined(_exactly(rough[one]), *(_middle(x[one]) for x in (K, gamma, J, D)))) is None:
             status[i] = Status.NOT_CONVERGED
         else:
             E[one] = found

@@ -280,8 +280,7 @@ class StepperN(UnderWay):
         self._begin(state)
 
     def _go_on(self, momentum: ArrayLike) -> None:
-        K = skew_matrices(momentum, self.ball.n)
-        if K.ndim > 2:
+        if (K := skew_matrices(momentum, self.ball.n)).ndim > 2:
             raise BadInput(f"momentum must be one skew matrix, not of the shape {K.shape}")
         now = {name: array[1:].copy() for name, array in self._ends.items()}
         self._begin(self._state | now | {"momentum": K[np.newaxis]})
@@ -421,8 +420,7 @@ def continued(
         for c in stages:
             K, rest = c * state["momentum"], (state[x] for x in ("gamma", "mass_tensor", "D"))
             E, ends.status[at], ends.reach[at] = rotations(K, *rest)
-            went = ends.status[at] == Status.TAKEN
-            if not went.all():
+            if not (went := ends.status[at] == Status.TAKEN).all():
                 at, E, state = at[went], E[went], some_balls(state, went)
                 if not at.size:
                     return state
@@ -482,8 +480,7 @@ def advance(one: Under, frames: dict[str, Floats], steps: Steps, count: Count) -
     room, chunk = np.empty((equations, equations)), min(max(WORK // equations**3, 1), CHUNK)
     while done < steps.last * s and not count.stopped:
         last, before = min(done + chunk, steps.last * s), done
-        done = take(one, Steps(done, last, steps.every), track, room)
-        if done < last:
+        if (done := take(one, Steps(done, last, steps.every), track, room)) < last:
             status, reach = _safely(one, done % s, follows)
             if status != Status.TAKEN:
                 return done // s, status, reach

@@ -21,8 +21,7 @@ from ..loops.twins import single
 def loop(function: Callable[..., Any], dtype: Any = np.float64) -> Callable[..., Any]:
     """An exported function of the loops, for float64 or float32: compiled, or in Python without NumPy's warnings."""
     name = f"{function.__module__.rpartition('.')[2]}_{function.__name__}"
-    table = _tables().get(np.dtype(dtype).name)
-    if table is not None:
+    if (table := _tables().get(np.dtype(dtype).name)) is not None:
         return table[name]
     _say_once()
     return np.errstate(all="ignore")(function if dtype is np.float64 else single(function))

@@ -111,8 +111,7 @@ def common_points(forms: Sequence[Form]) -> Points:
         raise ArithmeticError("no linear form separates the common points")
     coordinates = _representation(algebra, multiplication, parts)
     factors = tuple(Factor(p, c, m) for part, m in parts for p, c in _split(part, coordinates))
-    real = sum(len(factor.points(64)) for factor in factors)
-    if real != signature:
+    if (real := sum(len(factor.points(64)) for factor in factors)) != signature:
         raise ArithmeticError("the real roots of the eliminant and the signature of the trace form differ")
     return Points(real, factors)
 
@@ -122,8 +121,7 @@ class _Algebra:
 
     def __init__(self, forms: Sequence[Form]) -> None:
         kernel = _killed(forms)
-        size = kernel.ncols()
-        if size > 8:
+        if (size := kernel.ncols()) > 8:
             raise NotFinite
         below, place = _monomials(DEGREE - 1), _places(DEGREE)
         rows = kernel.tolist()
@@ -210,8 +208,7 @@ def _split(part: fmpz_poly, coordinates: Sequence[fmpz_poly]) -> Iterator[tuple[
     for v in VARIABLES:
         finer = []
         for piece, c in pieces:
-            zero = piece.gcd(c[v])
-            if zero.degree() > 0:
+            if (zero := piece.gcd(c[v])).degree() > 0:
                 finer.append((zero, (*c[:v], fmpz_poly(), *c[v + 1 :])))
             if zero.degree() < piece.degree():
                 finer.append((piece // zero, c))
@@ -401,8 +398,7 @@ def _confirmed(branches: Sequence[Branch], given: Sequence[Sequence[Fraction]]) 
     state = [tuple(map(exact, vector)) for vector in given]
     for branch in branches:
         if branch.multiplicity == 1:
-            again = enclosed(branch.rotation, *state)
-            if again is None:
+            if (again := enclosed(branch.rotation, *state)) is None:
                 return False
             if not all(x.overlaps(y) for x, y in zip(again, branch.rotation, strict=True)):
                 raise ArithmeticError("the interval Newton test finds another rotation than the eliminant")

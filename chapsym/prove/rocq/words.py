@@ -80,8 +80,7 @@ class Algebra:
         if tree[0] == "+":
             return joined("+", "Sum", map(self.matrix, tree[1:]))
         text, product = joined("*m", "Prod", (self.matrix(part) for part in tree[1:] if not self.is_number(part)))
-        numbers = [self.number(part) for part in tree[1:] if self.is_number(part)]
-        if not numbers:
+        if not (numbers := [self.number(part) for part in tree[1:] if self.is_number(part)]):
             return text, product
         factor, number = joined("*", "SProd", numbers)
         return f"({factor} *: {text})", f"(Scaled {number} {product})"
@@ -151,8 +150,7 @@ def rules_for(data: Data, used: set[str]) -> list[list[Tree]]:
     """The rules on the letters of a statement, and on the letters of these rules."""
     while True:
         rules = [rule for rule in data["rules"] if {*rule[:2]} <= used]
-        more = used.union(*(names_in(rule[2]) for rule in rules))
-        if more == used:
+        if (more := used.union(*(names_in(rule[2]) for rule in rules))) == used:
             return rules
         used = more
 
@@ -166,8 +164,7 @@ def algebra_of(data: Data, one: Data, rules: list[list[Tree]], point: Data, more
     transposes = {a: b for a, b in data["transposes"] if isinstance(b, str) and b != a}
     letters = {}
     for i, name in enumerate(sorted(used & set(data["letters"]))):
-        shape = (len(point[name]) > 1, len(point[name][0]) > 1)
-        if shape not in TYPES:
+        if (shape := (len(point[name]) > 1, len(point[name][0]) > 1)) not in TYPES:
             raise LeftOut(f"{name} is a matrix of one entry")
         other = transposes.get(name)
         is_transpose = other is not None and transposes.get(other) == name and (len(other), other) < (len(name), name)
