@@ -106,9 +106,8 @@ def _apart(coarse: Trajectory, fine: Trajectory, there: np.ndarray, factor: floa
 
     def omega(run: Trajectory) -> Floats:
         K, gamma = (np.asarray(x, dtype=float)[there] for x in (run.angular_momentum(), run.gamma))
-        return kernels.angular_velocity(
-            K, gamma, run.ball.mass_tensor[there, np.newaxis], run.ball.D[there, np.newaxis]
-        )
+        J, D = (x[there, np.newaxis] for x in (run.ball.mass_tensor, run.ball.D))
+        return kernels.angular_velocity(K, gamma, J, D)
 
     same, other = distance("attitude"), distance("attitude", -1.0)
     turned = None if same is None or other is None else np.degrees(4 * np.arcsin(np.minimum(same, other) / 2))

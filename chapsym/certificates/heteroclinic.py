@@ -95,8 +95,13 @@ def heteroclinic(
     radii = [Fraction(1, 10 ** (digits + n)) for n in range(RADII)] if radius is None else [radius]
     if min(top.J) == 0 and radius is None:
         radii = [Fraction(0)]
+    ball = {"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height)}
+
+    def found(off: Fraction) -> Document:
+        return accepted(stated(KIND, ball=ball, radius=shortest(off), digits=digits, orbits=orbits))
+
     try:
-        return widest(radii, lambda off: accepted(_document(top, off, digits, orbits)), progress)
+        return widest(radii, found, progress)
     except checker.Rejected as error:
         raise BadInput(f"the checker does not accept what was found: {error}") from None
 
@@ -138,8 +143,3 @@ def _digits(top: Top, starts: tuple[Fraction, Fraction], progress: Say) -> int:
 def _orbit(orbits: Orbits, x: Fraction, digits: int) -> Document:
     end, steps = orbits.end(x, digits)
     return {"start": str(x), "steps": steps, "end": decimal(round(fraction(end), digits), digits)}
-
-
-def _document(top: Top, radius: Fraction, digits: int, orbits: list[Document]) -> Document:
-    figures = {"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height)}
-    return stated(KIND, ball=figures, radius=shortest(radius), digits=digits, orbits=orbits)

@@ -75,9 +75,8 @@ def document(start: Start, found: CertifiedMotion, bits: int) -> Document:
         {"time": shortest(at), **{name: _claims(name, rows[i], share, radius) for name, rows in arrays.items()}}
         for i, at in enumerate(found.times)
     ]
-    return stated(
-        KIND, ball=ball, start=began, digits=found.digits, bits=bits, order=min(bits // 2, 1024), frames=frames
-    )
+    order = min(bits // 2, 1024)
+    return stated(KIND, ball=ball, start=began, digits=found.digits, bits=bits, order=order, frames=frames)
 
 
 def _start(start: Start, bits: int) -> dict[str, list[list[str]]]:

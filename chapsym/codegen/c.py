@@ -165,9 +165,8 @@ class Printer:
         self.depth = self.temporaries = 0
         #: Declared names; those declared at the beginning, with their types; and names for parts of structures.
         self.declared, self.above = set(self.function.parameters), dict[str, str]()
-        self.within = {x: Text(f"{x}.a0", "r") for x in self.halved} | {
-            f"{x}_": Text(f"{x}.a1", "r") for x in self.halved
-        }
+        halves = (("", "a0"), ("_", "a1"))
+        self.within = {f"{x}{end}": Text(f"{x}.{part}", "r") for end, part in halves for x in self.halved}
         #: The variables of the enclosing loops, and those of finished loops.
         self.loops, self.ended = list[str](), set[str]()
         self.statements = self.out
@@ -463,9 +462,8 @@ class Printer:
         if name == "square_root":
             return self.on_halves("root", self.normalised(given[0]))
         if len(given) == 1 and name == "Loose":
-            return (
-                Text(given[0].text, "e", given[0].level) if given[0].kind == "r" else Text(f"R({given[0].text})", "e")
-            )
+            text, kind, level = given[0].text, given[0].kind, given[0].level
+            return Text(text, "e", level) if kind == "r" else Text(f"R({text})", "e")
         high, low = given
         return Text(f"(t_r2){{{high.text}, {low.text}}}", "q" if name == "Normal" else "p")
 
@@ -730,9 +728,8 @@ class Printer:
 
     def loop(self, name: str, over: str, nodes: Sequence[ast.expr], body: Sequence[ast.stmt]) -> None:
         """A loop over a range; its end is computed once, and its variable exists only inside."""
-        if over not in ("range", "lanes") or any(
-            isinstance(n, ast.Name) and n.id == name for x in nodes for n in ast.walk(x)
-        ):
+        inner = (n for x in nodes for n in ast.walk(x))
+        if over not in ("range", "lanes") or any(isinstance(n, ast.Name) and n.id == name for n in inner):
             raise TypeError(f"a loop over {over}, or its variable is in its bounds")
         bounds = [self.expression(x).text for x in nodes]
         start, end, step = {1: ["0", *bounds, "1"], 2: [*bounds, "1"], 3: bounds}[len(bounds)]

@@ -263,10 +263,9 @@ class Texts:
         returned = of.returned if isinstance(of.returned, tuple) else (of.returned,)
         if of.returned is not None and not set(returned) <= {"b", "i", "r", "d"}:
             raise NotTranslatable(f"{function.name}: what is exported returns numbers, not {c_type(of.returned)}")
-        kinds = (
-            (x, kind.fields if isinstance(kind := of.names[x], Record) else [(x, kind)]) for x in function.parameters
-        )
-        takes = " ".join(f"{kind}{'*' if x in of.written else ''}" for x, fields in kinds for _, kind in fields)
+        kinds = ((x, of.names[x]) for x in function.parameters)
+        parts = ((x, kind.fields if isinstance(kind, Record) else [(x, kind)]) for x, kind in kinds)
+        takes = " ".join(f"{kind}{'*' if x in of.written else ''}" for x, fields in parts for _, kind in fields)
         return f'    {{"{function.name}", "{takes}", "{"".join(of.returned or "")}", in_{function.name}}},\n'
 
 
@@ -278,9 +277,8 @@ def guarded(guard: str, text: str) -> str:
 def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Mapping[str, int | None]) -> dict[str, str]:
     """The files by name; `load` gives the text of a module of the loops, of the kernels, or of their imports."""
     program = Program(load)
-    exported = {
-        name: [f for f in program.module(f"{PACKAGE}.{name}").functions.values() if f.is_exported] for name in LOOPS
-    }
+    loops = {name: program.module(f"{PACKAGE}.{name}").functions.values() for name in LOOPS}
+    exported = {name: [f for f in functions if f.is_exported] for name, functions in loops.items()}
     functions = program.module("chapsym.generated").functions
     texts = Texts(
         program, [f for name in LOOPS for f in exported[name]], [f for name in SINGLE for f in exported[name]],
@@ -407,8 +405,7 @@ def interface(
             copied = ["memcpy(result, &got, sizeof got)"]
         else:  # an integer result, such as 1, becomes a real number
             got = Text("got", returned)
-            copied = [
-                f"result[{i}] = {x.text}" for i, x in enumerate(got.parts if isinstance(returned, tuple) else [got])
-            ]
+            parts = got.parts if isinstance(returned, tuple) else [got]
+            copied = [f"result[{i}] = {x.text}" for i, x in enumerate(parts)]
         defined.append(block(head, call, *copied))
     return ABOUT_ROUNDINGS + "".join(declared), "".join(defined)

@@ -26,9 +26,8 @@ ALGEBRA = WordAlgebra(
 
 def centre_momentum() -> sp.Symbol:
     """M_k = Ω_k J - J Ω_kᵀ: the spatial momentum, transformed to the body frame at time k."""
-    spatial = written(
-        "m_k", "R_{k+1} J R_kᵀ - R_k J R_{k+1}ᵀ", space.spatial_momentum(space.R, space.R1), space.ALGEBRA
-    )
+    momentum = space.spatial_momentum(space.R, space.R1)
+    spatial = written("m_k", "R_{k+1} J R_kᵀ - R_k J R_{k+1}ᵀ", momentum, space.ALGEBRA)
     carried = written("m_k_body", "R_kᵀ m_k R_k", space.RT * spatial * space.R, space.ALGEBRA)
     return in_step_symbols("M_k", carried, at_start=True)
 

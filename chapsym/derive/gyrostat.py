@@ -41,12 +41,8 @@ def added_torque() -> sp.Symbol:
     It is δ(½ tr(Aᵀω)) for δR = Rη, δω = η̇ + [ω,η], minus d/dt ½ tr(Aᵀη), whose integral is a boundary term.
     """
     term = written("rotor_term", "tr of it is ½ tr(Aᵀω), ⟨a,ω⟩ for n = 3", -A * omega / 2, ALGEBRA)
-    varied = rate(
-        "rotor_varied",
-        "δR = Rη: δω = ξ + [ω,η], ξ = η̇",
-        term,
-        {A: sp.S.Zero, omega: xi + motion.commutator(omega, eta)},
-    )
+    variation = {A: sp.S.Zero, omega: xi + motion.commutator(omega, eta)}
+    varied = rate("rotor_varied", "δR = Rη: δω = ξ + [ω,η], ξ = η̇", term, variation)
     ends = written("rotor_ends", "tr of it is ½ tr(Aᵀη)", -A * eta / 2, ALGEBRA)
     ended = rate("rotor_ended", "d/dt", ends, {A: sp.S.Zero, eta: xi})
     work = written("rotor_work", "tr of it is the work, up to a derivative", varied - ended, ALGEBRA)
@@ -55,20 +51,15 @@ def added_torque() -> sp.Symbol:
 
 def eliminated() -> sp.Symbol:
     """The principle of the ball with the rotor; velocity and reaction are eliminated.  It vanishes on motions."""
-    return written(
-        "gyrostat_principle",
-        "the ball's principle, and the rotor's part",
-        motion.eliminated() + added_torque(),
-        ALGEBRA,
-    )
+    whole = motion.eliminated() + added_torque()
+    return written("gyrostat_principle", "the ball's principle, and the rotor's part", whole, ALGEBRA)
 
 
 def contact_momentum() -> sp.Symbol:
     """K about the contact point: K of the ball plus A′ with -½ tr(η A′) = ∂L/∂Ṙ · Rη for the rotor's term of L."""
     slope = written("rotor_impulse", "tr of it is ½ tr(Aᵀη), the rotor's ∂L/∂Ṙ · Rη", -A * eta / 2, ALGEBRA)
-    own = written(
-        "rotor_momentum", "∂L/∂Ṙ · Rη = -½ tr(η it)", -dual("rotor_impulse_dual", "½ tr(η it)", slope, eta), ALGEBRA
-    )
+    impulse = -dual("rotor_impulse_dual", "½ tr(η it)", slope, eta)
+    own = written("rotor_momentum", "∂L/∂Ṙ · Rη = -½ tr(η it)", impulse, ALGEBRA)
     return written("K_gyrostat", "that of the ball, and the rotor's", motion.contact_momentum() + own, ALGEBRA)
 
 
@@ -93,9 +84,8 @@ def rotor_balance() -> sp.Symbol:
 def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
     """(𝒦_k, -Ωᵀ𝒦_{k-1}Ω) of the gyrostat, as `ball.split_balance` for the ball."""
     seen = space.RT * rotor_balance() * space.R
-    balance = written(
-        "gyrostat_balance", "the ball's balance, and the rotor's, in the body", ball.body_balance() + seen, SPACE
-    )
+    whole = ball.body_balance() + seen
+    balance = written("gyrostat_balance", "the ball's balance, and the rotor's, in the body", whole, SPACE)
     return ball.split(balance, "gyrostat", "_gyrostat", BOTH)
 
 

@@ -74,12 +74,8 @@ def turning_step() -> sp.Symbol:
 
 def variation() -> sp.Symbol:
     """δ𝕃(k-1, k) + δ𝕃(k, k+1) for free increments dR of R_k and dr of r_k, as a trace."""
-    action = written(
-        "action",
-        "tr of it is 𝕃(k-1,k) + 𝕃(k,k+1), 𝕃 = c Tr(R_k J R_{k+1}ᵀ) + (m/2)|r_{k+1} - r_k|²",
-        lagrangian(c, R0, R, r0, r) + lagrangian(c, R, R1, r, r1),
-        FREE,
-    )
+    text = "tr of it is 𝕃(k-1,k) + 𝕃(k,k+1), 𝕃 = c Tr(R_k J R_{k+1}ᵀ) + (m/2)|r_{k+1} - r_k|²"
+    action = written("action", text, lagrangian(c, R0, R, r0, r) + lagrangian(c, R, R1, r, r1), FREE)
     increments = FREE.with_transposes({**dict.fromkeys((R0, R1, r0, r1, J), sp.S.Zero), R: dR, r: dr})
     return rate("variation_c", "for increments dR of R_k and dr of r_k", action, increments)
 
@@ -90,12 +86,8 @@ def multiplier_equations(factor: sp.Expr) -> list[sp.Symbol]:
     The multipliers are a symmetric Λ for R Rᵀ = 1 and a column -f for the rolling constraint, so that the
     equation in r_k is m Δr_k - m Δr_{k-1} = f, as (4.4).
     """
-    holding = written(
-        "holding",
-        "tr of it: the constraint (4.2) times -f, and the increment of R Rᵀ/2 times Λ",
-        -rolling_constraint(dr, dR) * fT + (dR * RT + R * dRT) * Lam / 2,
-        FREE,
-    )
+    text = "tr of it: the constraint (4.2) times -f, and the increment of R Rᵀ/2 times Λ"
+    holding = written("holding", text, -rolling_constraint(dr, dR) * fT + (dR * RT + R * dRT) * Lam / 2, FREE)
     return equations(_with_factor(variation(), factor), holding, {"R": dR, "r": dr}, ALGEBRA)
 
 
@@ -105,9 +97,8 @@ def momentum_balance(factor: sp.Expr) -> sp.Symbol:
     Virtual displacements are dR = ξR with ξ skew, and dr = -ρ ξ γ by the continuous constraint.  The principle
     is that the variation vanishes for every skew ξ.
     """
-    rolling = written(
-        "rolling", "(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes", rolling_constraint(dr, dR), FREE
-    )
+    constraint = rolling_constraint(dr, dR)
+    rolling = written("rolling", "(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes", constraint, FREE)
     increments = allowed("", "dR = ξR", {dR: xi * R}, rolling, dr, ALGEBRA)
     work = replaced("work", "tr of it is the variation for dR = ξR and that dr", variation(), increments, ALGEBRA)
     return _with_factor(dual("balance_c", "it vanishes when the variation does for every skew ξ", work, xi), factor)
@@ -144,9 +135,8 @@ def on_constraint(name: str, text: str, of: sp.Symbol, more: Mapping[sp.Symbol, 
     steps = (("k", "k+1", "after", (R, R1, r, r1), r1, -1), ("k-1", "k", "before", (R0, R, r0, r), r0, 1))
     centres = dict[sp.Symbol, sp.Expr]()
     for start, end, when, path, centre, sign in steps:
-        holds = written(
-            f"rolls_{when}", f"(4.9) from {start} to {end}: it vanishes", discrete_constraint(*path), ALGEBRA
-        )
+        constraint = discrete_constraint(*path)
+        holds = written(f"rolls_{when}", f"(4.9) from {start} to {end}: it vanishes", constraint, ALGEBRA)
         rest = terms(f"rest_{when}", f"it without {centre}", holds, [centre], having=False)
         centres[centre] = sign * rest
     return replaced(name, text, of, {**(more or {}), **ALGEBRA.with_transposes(centres)}, ALGEBRA)

@@ -142,12 +142,9 @@ class CertifiedMotion(Brief):
 
     def write(self) -> dict[str, Any]:
         """For JSON: each number as decimal strings [middle, radius]; the true number is in that interval."""
-        arrays = {name: array for name in PARTS if (array := getattr(self, name)) is not None}
+        arrays = [(name, array) for name in PARTS if (array := getattr(self, name)) is not None]
         frames = [
-            {
-                "time": decimal(at),
-                **{name: [list(written(x, self.digits)) for x in array[i]] for name, array in arrays.items()},
-            }
+            {"time": decimal(at)} | {name: [list(written(x, self.digits)) for x in array[i]] for name, array in arrays}
             for i, at in enumerate(self.times)
         ]
         found: dict[str, Any] = {"frames": frames, "digits": self.digits, "steps": self.steps, "bits": self.bits}

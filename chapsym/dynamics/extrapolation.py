@@ -110,9 +110,8 @@ def weights(columns: int, first: int = 0) -> tuple[Fraction, ...]:
 def weights_of_pairs(columns: int) -> Floats:
     """The arguments of `march_long_pairs`: the weights and their changes by the last column, (columns, 4)."""
     whole, fewer = (weights(n, FIRST) for n in (columns, columns - 1))
-    return np.array(
-        [[*Pair.of(w).halves(), *Pair.of(w - v).halves()] for w, v in zip(whole, (*fewer, Fraction(0)), strict=True)]
-    )
+    pairs = zip(whole, (*fewer, Fraction(0)), strict=True)
+    return np.array([[*Pair.of(w).halves(), *Pair.of(w - v).halves()] for w, v in pairs])
 
 
 def stages_of(columns: int, first: int = 0) -> int:
@@ -268,9 +267,7 @@ def of_some(record: Any, some: slice) -> Any:
 @cache
 def loop_weights(columns: int) -> Weights:
     """The weights of the columns and those of the guesses."""
-    rows = [
-        np.array((Fraction(0),) * fewer + weights(columns - fewer), dtype=float)[:columns]
-        for fewer in range(2 + CHANGES)
-    ]
+    padded = ((Fraction(0),) * fewer + weights(columns - fewer) for fewer in range(2 + CHANGES))
+    rows = [np.array(row, dtype=float)[:columns] for row in padded]
     changes = [longer - shorter for longer, shorter in pairwise(rows)]
     return Weights(np.array([rows[0], *changes]), *guess_weights(columns))

@@ -142,7 +142,9 @@ class Equations(NamedTuple):
         for _ in range(MOST_ROUNDS):
             if not len(left):
                 break
-            value, slope = self._at(x[left], [array[left] for array in known])
+            given = [array[left] for array in (x, *known)]
+            value = _values(self.function, given, self.size)
+            slope = _values(self.slope, given, self.size**2).reshape(-1, self.size, self.size)
             regular = np.isfinite(slope).all(axis=(1, 2)) & np.isfinite(value).all(axis=1)
             regular[regular] &= np.linalg.slogdet(slope[regular])[0] != 0
             if not regular.all():
@@ -184,12 +186,6 @@ class Equations(NamedTuple):
         if last:
             return self._enclosed(x, known) if isinstance(level, Enclosure) else x
         raise BadInput(f"number {index} does not settle: the root is nearly singular, or more digits are needed")
-
-    def _at(self, x: np.ndarray, known: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-        """F, (N, n), and its derivatives, (N, n, n)."""
-        value = _values(self.function, [x, *known], self.size)
-        slope = _values(self.slope, [x, *known], self.size**2)
-        return value, slope.reshape(-1, self.size, self.size)
 
     def _correction(self, x: Vector, known: Vector) -> tuple[Vector, np.ndarray]:
         """A correction of x, and its change by a relative change of x, at least |x|."""

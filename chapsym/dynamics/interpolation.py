@@ -75,12 +75,8 @@ class States:
         own = checked_before(tensor, D, None if ball.radius is None else np.ldexp(ball.radius, -length))
         contact = None if self.contact is None else np.ldexp(self.contact, -length[..., np.newaxis, np.newaxis])
         K = np.ldexp(self.momentum, time - mass[..., np.newaxis, np.newaxis])
-        return (
-            replace(self, ball=own, clock=np.ldexp(self.clock, -time), momentum=K, contact=contact),
-            time,
-            mass,
-            length,
-        )
+        scaled = replace(self, ball=own, clock=np.ldexp(self.clock, -time), momentum=K, contact=contact)
+        return scaled, time, mass, length
 
     def _omega(self) -> Floats:
         return kernels.angular_velocity(self.momentum, self.gamma, *self._body())

@@ -292,9 +292,8 @@ def exact_step(
 
 def _in_pairs(step: Step, precision: DoubleDouble) -> Step:
     """A step in mpmath's numbers, rounded to pairs."""
-    q, K, g = (
-        np.array([Pair.of(fraction(x)).halves() for x in v]).T for v in (step.rotation, step.momentum, step.gamma)
-    )
+    vectors = step.rotation, step.momentum, step.gamma
+    q, K, g = (np.array([Pair.of(fraction(x)).halves() for x in v]).T for v in vectors)
     high, low = (Step(q[i], K[i], g[i], step.status, step.reach, precision) for i in range(2))
     return replace(high, low=low)
 

@@ -54,10 +54,8 @@ class Output:
         found = {"units": self.units if isinstance(self.units, str) else self.units(n), "long_name": self.long_name}
         if motion and self.motion is not None:
             found = dict(zip(("long_name", "units"), self.motion, strict=True))
-        of_both = (
-            "a proved bound of the length of its error (of the sum with what it has beyond float64, if that is here)"
-        )
-        more = {LOW: "what it has beyond float64", BOUND: of_both}
+        both = "a proved bound of the length of its error (of the sum with what it has beyond float64, if that is here)"
+        more = {LOW: "what it has beyond float64", BOUND: both}
         ends = [about for end, about in more.items() if name.endswith(end)]
         return found | {"long_name": ": ".join([found["long_name"], *ends])}
 

@@ -521,9 +521,8 @@ class Trajectory:
             omega, energy = kernels.angular_velocity(*frames), np.array(kernels.kinetic_energy(*frames))
             omega = omega if ball.axes is None else ball.from_principal(omega, frames=True)
             omega[missing] = energy[missing] = np.nan
-            return {
-                name: self._in_range(name, x) for name, x in (("omega", omega), ("energy", energy)) if name in names
-            }
+            found = {"omega": omega, "energy": energy}
+            return {name: self._in_range(name, x) for name, x in found.items() if name in names}
 
     def _in_range(self, name: str, values: Floats) -> Floats:
         """The values; raises BadInput if those of a frame that was reached are beyond the range of floats."""

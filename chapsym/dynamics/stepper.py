@@ -363,9 +363,8 @@ class Stepper(UnderWay):
                 try:
                     went, status, reach = self._march_on(taken, done, count, every, frames)
                     if status:
-                        status = self._stopped(
-                            status, before, partial(self._march_on, taken, done, went, every, frames)
-                        )
+                        again = partial(self._march_on, taken, done, went, every, frames)
+                        status = self._stopped(status, before, again)
                 except BaseException:  # an interrupt undoes the steps of this call of the loop
                     if before is not None:
                         self._reset(before)

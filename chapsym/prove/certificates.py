@@ -447,12 +447,8 @@ def _alike(one: object, other: WordAlgebra) -> bool:
 
 def _relations(comparison: Comparison | Count) -> list[list[Tree]]:
     """The relations as the checker reads them, with > and ≥ reversed."""
-    return [
-        [_OPERATIONS[r.rel_op], tree(r.lhs), tree(r.rhs)]
-        if r.rel_op in _OPERATIONS
-        else [_OPERATIONS[r.reversed.rel_op], tree(r.rhs), tree(r.lhs)]
-        for r in comparison.relations
-    ]
+    relations = (r if r.rel_op in _OPERATIONS else r.reversed for r in comparison.relations)
+    return [[_OPERATIONS[r.rel_op], tree(r.lhs), tree(r.rhs)] for r in relations]
 
 
 _OPERATIONS = {"<": "<", "<=": "<=", "==": "=", "!=": "!="}

@@ -124,10 +124,8 @@ class Judgement:
     def certified(self) -> "Judgement":
         """The judgement with its certificate; the claim is open if the checker does not accept it."""
         try:
-            return replace(
-                self,
-                certificate=certificates.certificate(self.claim.id, self.claim.printed, self.proof, str(self.verdict)),
-            )
+            of = self.claim.id, self.claim.printed, self.proof, str(self.verdict)
+            return replace(self, certificate=certificates.certificate(*of))
         except Rejected as error:
             self.proof.problems.append(f"the checker does not accept its certificate: {error}")
             return replace(self, verdict=Verdict.OPEN)
@@ -144,14 +142,11 @@ class Judgement:
         decided = [statement for _, statement, holds in proof.decided if holds and not isinstance(statement, Rest)]
         return Grounds(proof.stated.get(""), len(decided), len(proof.certificates), argument.sentences(proof.said))
 
-    def _settled(self) -> Data:
-        """The grounds of the claim, with the claims that were proved again for it."""
-        rests = [statement for _, statement, _ in self.proof.decided if isinstance(statement, Rest)]
-        return argument.settlement({self.claim.id: self.grounds} | {x.name: x.grounds for x in rests if x.grounds})
-
     def record(self, downstream: Sequence[str] = ()) -> Data:
         """The record of the claim, in the JSON form of the command."""
         proof = self.proof
+        rests = [statement for _, statement, _ in proof.decided if isinstance(statement, Rest)]
+        again = {self.claim.id: self.grounds} | {x.name: x.grounds for x in rests if x.grounds}
         known = vars(proof) | {
             "title": self.claim.title, "open_in_paper": self.open_in_paper, "derivation": self.proof.lines,
             "uses": list(self.claim.uses), "downstream": list(downstream),
@@ -160,7 +155,7 @@ class Judgement:
                 {"part": part, **asdict(stated), "steps": [asdict(step) for step in proof.steps[part]]}
                 for part, stated in proof.stated.items()
             ],
-            "settled": self._settled() if self.verdict is Verdict.SETTLED else None,
+            "settled": argument.settlement(again) if self.verdict is Verdict.SETTLED else None,
         }  # fmt: skip
         return {
             "id": self.claim.id,

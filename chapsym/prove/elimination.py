@@ -66,9 +66,8 @@ def _charts(size: int) -> Iterator[list[list[int]]]:
     """The charts: the unknowns, then products of two triangular matrices with small entries."""
     for seed in itertools.count():
         entry = random.Random(seed).randint
-        low, high = (
-            [[int(i == j) or entry(-1, 1) * bool(seed) for j in range(size)] for i in range(size)] for _ in "LU"
-        )
+        places = [[i == j for j in range(size)] for i in range(size)]
+        low, high = ([[int(on) or entry(-1, 1) * bool(seed) for on in row] for row in places] for _ in "LU")
         yield [[sum(low[i][k] * high[k][j] for k in range(min(i, j) + 1)) for j in range(size)] for i in range(size)]
 
 

@@ -295,9 +295,8 @@ class Proof:
             there = {x: numbers[x.name] for x in h.symbols if x.name in numbers}
             if there.keys() >= h.symbols and not h.true_at(there):
                 self.problems.append(f"the witness {name} violates the hypothesis {h.text}")
-        self.witnesses.append(
-            {"name": name, "point": {str(x): str(v) for x, v in values.items()}, "statements": len(statements)}
-        )
+        point = {str(x): str(v) for x, v in values.items()}
+        self.witnesses.append({"name": name, "point": point, "statements": len(statements)})
 
     def define(self, reason: str) -> None:
         """States that the claim is a definition, with the reason: there is nothing to decide."""

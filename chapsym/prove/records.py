@@ -134,8 +134,5 @@ def append(path: Path, record: Data, claims: dict[str, Claim]) -> None:
 
 def stale(records: dict[str, Data], claims: dict[str, Claim]) -> list[str]:
     """The ids whose record was made with another derivation, or other libraries, than the present ones."""
-    return [
-        id
-        for id, record in records.items()
-        if id in claims and record["evidence"]["fingerprint"] != fingerprint(claims[id])
-    ]
+    made = {id: record["evidence"]["fingerprint"] for id, record in records.items() if id in claims}
+    return [id for id, found in made.items() if found != fingerprint(claims[id])]

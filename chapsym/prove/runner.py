@@ -149,9 +149,8 @@ def explain(record: Data) -> str:
     lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
     lines += [f"  tried: {text}" for text in evidence["tried"]]
     for row in evidence["readings"]:
-        lines += (
-            [f"  ANSWER to: {row['asked']}", f"    {row['text']}"] if row["theorem"] else [f"  OPEN: {row['asked']}"]
-        )
+        answered = [f"  ANSWER to: {row['asked']}", f"    {row['text']}"]
+        lines += answered if row["theorem"] else [f"  OPEN: {row['asked']}"]
     lines += [f"  settled {evidence['settled']['text']}"] if evidence["settled"] else []
     lines += [f"  measured, not proved: {text}" for text in evidence["measured"]]
     lines += [f"  conjecture: {text}" for text in evidence["conjectures"]]

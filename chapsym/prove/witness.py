@@ -204,9 +204,8 @@ def true_at(equation: Equation, point: Exact) -> bool | None:
 def _same(a: Value, b: Value) -> bool:
     """Equality of matrices; a number is its multiple of the identity (0 for any zero matrix)."""
     if isinstance(a, sp.MatrixBase) and isinstance(b, sp.MatrixBase):
-        return bool(a.shape == b.shape and a == b) or (
-            1 in a.shape and 1 in b.shape and a.is_zero_matrix and b.is_zero_matrix
-        )
+        vanish = 1 in a.shape and 1 in b.shape and a.is_zero_matrix and b.is_zero_matrix
+        return bool(a.shape == b.shape and a == b) or vanish
     if isinstance(b, sp.MatrixBase):
         a, b = b, a
     if isinstance(a, sp.MatrixBase):
@@ -218,7 +217,5 @@ def shown(equation: Equation, point: Exact) -> dict[str, str]:
     """The values of the symbols that occur in the equation, by name."""
     used = set().union(*(e.free_symbols for e in (*equation.left, *equation.right)))
     values = {str(symbol): value for symbol, value in point.items() if symbol in used}
-    return {
-        name: str(value.tolist() if isinstance(value, sp.MatrixBase) else value)
-        for name, value in sorted(values.items())
-    }
+    plain = {x: value.tolist() if isinstance(value, sp.MatrixBase) else value for x, value in values.items()}
+    return {name: str(value) for name, value in sorted(plain.items())}

@@ -110,10 +110,8 @@ Print Assumptions {self.name}.
         boxes = [start, *(step.after for step in steps)]
         lemmas = [self._start(name, places, start)]
         lemmas += [self._step(f"step_{name}{k}", boxes[k - 1], step) for k, step in enumerate(steps, 1)]
-        facts = [
-            *self._rounded(data["steps"], steps),
-            *self._turns(list(map(self.walk.vector, boxes)), data["displacement"]),
-        ]
+        directions = list(map(self.walk.vector, boxes))
+        facts = [*self._rounded(data["steps"], steps), *self._turns(directions, data["displacement"])]
         says = " /\\\n    ".join(text for text, _ in facts)
         proofs = "".join(f"    + {proof}.\n" for _, proof in facts)
         chain = "".join(

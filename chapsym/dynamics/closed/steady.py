@@ -149,9 +149,8 @@ def steady_frames(
             _turn(v[part], axis[part], cosine, along, found[part])
         if attitudes is not None and first is not None and later is not None:
             for i in range(4):
-                np.add(
-                    cosine * first[part, i, np.newaxis], along * later[part, i, np.newaxis], out=attitudes[part, :, i]
-                )
+                here = part, i, np.newaxis
+                np.add(cosine * first[here], along * later[here], out=attitudes[part, :, i])
     for kept in (momenta, verticals, attitudes, traces):
         if kept is not None:
             kept[~taken[:, np.newaxis] & (numbered > 0)] = np.nan

@@ -329,9 +329,8 @@ class ExactCurve:
         start, end = (acb.elliptic_f(acb(amplitude(curve, moments, v)), acb(k2)).real for v in (direction, after))
         whole = round((near - float(end - start)) / float(4 * quarter))
         rate = square.sqrt() * (1 if curve.rate > 0.0 else -1)
-        return cls(
-            curve, moments, direction, gibbs, after, level, rate, k2, quarter, start, end - start + 4 * quarter * whole
-        )
+        increment = end - start + 4 * quarter * whole
+        return cls(curve, moments, direction, gibbs, after, level, rate, k2, quarter, start, increment)
 
     def nearest(self) -> Curve:
         """The curve in floats, rounded from these: near the separatrix a rounded direction would have another k'."""

@@ -177,9 +177,8 @@ def run_single(
     moments of inertia or a path beyond the range of float32, and for a momentum so small that the ball would not move.
     """
     in_single = rounded(balls)
-    slow = balls.momentum.any(axis=1) & (
-        np.abs(balls.momentum).max(axis=1) < SLOWEST * largest_moment(balls.mass_tensor, balls.D)
-    )
+    slowest = SLOWEST * largest_moment(balls.mass_tensor, balls.D)
+    slow = balls.momentum.any(axis=1) & (np.abs(balls.momentum).max(axis=1) < slowest)
     if steps > 1 and slow.any():
         first = ", ".join(f"{x:g}" for x in balls.momentum[slow][0])
         raise BadInput(

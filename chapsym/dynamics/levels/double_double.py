@@ -185,9 +185,8 @@ def run_long(
         ball = loop.Still(*start, float(balls.D[i]), float(balls.radius[i]))
         tracks = frames.of(i), frames.halves.of(i)
         for part in parts(Steps(0, steps, every), CHUNK // (len(weights) * loop.FIRST * 4)):
-            went, frames.status[i], frames.reach[i], more = march(
-                ball, *h.halves(), weights, part, body.reshape(-1), *tracks
-            )
+            ends = march(ball, *h.halves(), weights, part, body.reshape(-1), *tracks)
+            went, frames.status[i], frames.reach[i], more = ends
             doubt[i] += more
             frames.taken[i] += went
             count.add(part.last - part.first)
