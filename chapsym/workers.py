@@ -44,10 +44,8 @@ class Processes(ProcessPoolExecutor):
         with _deaf():
             try:
                 return super().submit(_called, *call, **named)
-            except (
-                RuntimeError,
-                OSError,
-            ) as error:  # too few threads or processes: those that begin would find nothing
+            except (RuntimeError, OSError) as error:
+                # Too few threads or processes: those that begin would find nothing.
                 for process in (self._processes or {}).values():
                     process.kill()
                 if isinstance(error, BrokenPipeError):

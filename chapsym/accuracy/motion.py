@@ -483,8 +483,7 @@ def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
         kernels.rotate(back, np.broadcast_to(v[:, np.newaxis], (*half.shape, 3))) for v in (few.K, few.gamma)
     )
     if found.attitude is not None:
-        first = np.broadcast_to(few.attitude[:, np.newaxis], turned.shape)
-        found.attitude[some] = kernels.compose(first, turned)
+        found.attitude[some] = kernels.compose(np.broadcast_to(few.attitude[:, np.newaxis], turned.shape), turned)
     if found.contact is not None:
         assert few.ball.radius is not None
         centre = kernels.rotate(few.attitude, np.cross(omega, few.gamma))[:, :2] * few.ball.radius[:, np.newaxis]

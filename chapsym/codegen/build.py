@@ -115,8 +115,7 @@ class Package:
         functions = ", ".join(sorted({function for _, function, _ in passes.letters(kernel)}))
         imports = f"\n\nfrom {printer.FUNCTIONS} import {functions}" if functions else ""
         text = "\n".join(about) + f"{imports}\n\n\n{code(kernel)}"
-        point = [at(symbol.name) for symbol in kernel.inputs]
-        roundings = rounding.count(kernel, run(kernel, text), point)
+        roundings = rounding.count(kernel, run(kernel, text), [at(symbol.name) for symbol in kernel.inputs])
         row = {"claims": kernel.claims, "operations": operations, "roundings": roundings}
         row["saved_by"] = passes.saved(kernel)
         row |= {"expression_sha256": digest, "text_sha256": _hash(text)}
@@ -140,7 +139,6 @@ class Package:
                 if not (said := str(error)).startswith(f"{kernel.name} "):  # by its text or its carriers
                     said = f"{kernel.name}: {said.replace('the certificate has', 'it makes')}; divide less in it"
                 raise ArithmeticError(said) from None
-        table = {"kernels": rows}
         for name, (derived, values) in self.computed.items():
             if values(files[f"{name}.py"]) != derived:
                 raise ArithmeticError(f"the text of {name} does not compute its expression")
@@ -149,8 +147,7 @@ class Package:
             files |= c_files.build(partial(self.text, files), self.kernels, roundings)
         else:
             files |= c_files.kernels_alone(self.text(files, "chapsym.generated"), self.kernels, self.name, roundings)
-        parts = [f'"{key}": {_one_a_line(part)}' for key, part in table.items()]
-        files[MANIFEST] = "{\n" + ",\n".join([f'"sympy": "{sp.__version__}"', *parts]) + "\n}\n"
+        files[MANIFEST] = f'{{\n"sympy": "{sp.__version__}",\n"kernels": {_one_a_line(rows)}\n}}\n'
         return files
 
     def text(self, files: Mapping[str, str], path: str) -> str:
@@ -182,11 +179,11 @@ class Package:
     def check(self, place: Path) -> list[str]:
         """Compares a fresh build with `place`: listing, bytes and values; returns what is wrong."""
         fresh = {name: text.encode() for name, text in self.files.items()}
-        there = place.iterdir() if place.is_dir() else ()
+        there = list(place.iterdir()) if place.is_dir() else []
         found = {p.name: p.read_bytes() for p in there if p.is_file() and p.name != FINGERPRINTS}
         changed = [name for name in sorted(set(fresh) & set(found)) if fresh[name] != found[name]]
         problems = [f"{name} is missing" for name in sorted(set(fresh) - set(found))]
-        folders = {p.name for p in (place.iterdir() if place.is_dir() else ()) if p.is_dir()} - {"__pycache__"}
+        folders = {p.name for p in there if p.is_dir()} - {"__pycache__"}
         problems += [f"{name} is extra" for name in sorted(set(found) - set(fresh) | folders)]
         problems += [f"{name} is changed" for name in changed]
         for name in changed:

@@ -146,8 +146,7 @@ class Printer:
         self.made: dict[str, Sequence[ast.expr]] = {}
         #: The called functions, each with its replacement in float32, or itself.
         self.calls: dict[Function, Function] = {}
-        nodes = [n for n in ast.walk(function.node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
-        self.stored = Counter(n.id for n in nodes)
+        self.stored = Counter(stored(function.node))
         self.own = {*self.stored, *function.parameters}
         #: The parameters of a function of pairs that are high halves; in C they are whole pairs.
         of_pairs = self.module.name == PAIRS.rpartition(".")[2]
@@ -342,9 +341,7 @@ class Printer:
         one, two = (x.kind == "1" or (x.kind == "i" and x.text in ("1", "2")) for x in (a, b))
         if op is ast.Mult and (one or two):
             whole, other = (a, b) if one else (b, a)
-            if whole.text == "2":
-                return self.halves(other, "2 * {}")
-            return other
+            return self.halves(other, "2 * {}") if whole.text == "2" else other
         if op is ast.Div:
             if b.text == "2":
                 return self.halves(a, "{} / 2")
@@ -609,11 +606,7 @@ class Printer:
                 if any(isinstance(n, ast.Break | ast.Continue) for n in ast.walk(node)):
                     raise TypeError("a loop over rows is left")
                 read = {n.id for row in rows for n in ast.walk(row) if isinstance(n, ast.Name)}
-                if read & {
-                    n.id
-                    for n in ast.walk(ast.Module(body, []))
-                    if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
-                }:
+                if read.intersection(stored(*body)):
                     raise TypeError("a row is read after what it names has changed")
                 for row in rows:
                     self.assign(target, row)
@@ -712,8 +705,7 @@ class Printer:
             self.each(count, f"{name}_[i_] = AT2({matrix}, i_, {at})")
             return
         shape, *types = *node.args, *(k.value for k in node.keywords)
-        elements = {"np.int64": "i", "np.int32": "w"}
-        element = elements.get(ast.unparse(types[0]), "r") if types else "r"
+        element = {"np.int64": "i", "np.int32": "w"}.get(ast.unparse(types[0]), "r") if types else "r"
         sizes = [self.expression(x).at(UNARY) for x in (shape.elts if isinstance(shape, ast.Tuple) else [shape])]
         sizes = sizes * 2 if callee == "numpy.eye" else sizes
         clear = [f"memset({name}_, 0, sizeof {name}_)"] if callee != "numpy.empty" else []
@@ -749,6 +741,11 @@ def whole(high: Text, low: Text) -> Text:
     of = high.text.removesuffix(".a0")
     one = high.level == ATOM and low.text == f"{of}.a1"
     return Text(of if one else f"(t_r2){{{high.text}, {low.text}}}", "p")
+
+
+def stored(*nodes: ast.AST) -> list[str]:
+    """The names that are assigned to, each as often as it is."""
+    return [n.id for x in nodes for n in ast.walk(x) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
 
 
 def base_name(node: ast.expr) -> str:

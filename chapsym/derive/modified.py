@@ -90,6 +90,5 @@ def equation_jet() -> list[sp.Matrix]:
 def along(expr: sp.Matrix | sp.Expr, direction: sp.Matrix) -> sp.Matrix | sp.Expr:
     """The derivative in γ along `direction`."""
     eps = sp.Symbol("epsilon")
-    change = dict(zip(gamma, gamma + eps * direction, strict=True))
-    moved = expr.xreplace(change)
+    moved = expr.xreplace(dict(zip(gamma, gamma + eps * direction, strict=True)))
     return moved.diff(eps).subs(eps, 0)

@@ -156,8 +156,7 @@ def write(data: Data, folder: Path) -> None:
             lines.append(f"{json.dumps(name)}: [\n{rows}\n]")
         else:
             lines.append(f"{json.dumps(name)}: {json.dumps(part, ensure_ascii=False)}")
-    text = "{\n" + ",\n".join(lines) + "\n}\n"
-    files.write_text(folder / checker.file_name(data["claim"]), text)
+    files.write_text(folder / checker.file_name(data["claim"]), "{\n" + ",\n".join(lines) + "\n}\n")
 
 
 class _Maker:

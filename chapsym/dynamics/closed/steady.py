@@ -175,8 +175,7 @@ def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floa
         size, size_ = (np.ldexp(x, up - down) for x in turns.each(turns.root, square, square_))
         size, size_ = np.where(still, 0.0, np.where(hollow, np.inf, size)), np.where(still | hollow, 0.0, size_)
         taken = size < QUARTER
-        sine = (np.where(taken, x, 0.0) for x in (size, size_))
-        half = turns.each(_half_angle, *sine)
+        half = turns.each(_half_angle, *(np.where(taken, x, 0.0) for x in (size, size_)))
         axis = np.stack([w1, w2, w3], axis=-1) / np.sqrt(square)[:, np.newaxis]
     axis[still | ~taken] = 0.0
     return axis, (half[0], half[1]), size

@@ -65,8 +65,7 @@ def corrected(E: Floats, k: Floats, gamma: Floats, J: Floats, D: Floats) -> tupl
     n, result, settled = E.shape[-1], E.copy(), np.zeros(len(D), dtype=bool)
     at, limit = np.arange(len(D)), np.full(len(D), LARGEST)
     for _ in range(MOST_CORRECTIONS):
-        slope = so_n.jacobian(E, gamma, J, D)
-        xi = _solved(slope, k - so_n.coordinates(so_n.momentum(E, gamma, J, D)))
+        xi = _solved(so_n.jacobian(E, gamma, J, D), k - so_n.coordinates(so_n.momentum(E, gamma, J, D)))
         change = np.sqrt((xi * xi).sum(axis=-1))
         fits = change <= limit
         if not fits.all():

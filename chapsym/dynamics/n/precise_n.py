@@ -53,8 +53,7 @@ def run(
             now["attitude"] = _middle(so_n.polar(now["attitude"]))
         for name, array in frames.items():
             array[:, 0] = now[name]
-        coefficients = [exact(c) for c in stages]
-        continued(now, frames, coefficients, steps, ends, np.arange(balls), count, _rotations)
+        continued(now, frames, [exact(c) for c in stages], steps, ends, np.arange(balls), count, _rotations)
     rounded = np.frompyfunc(lambda x: x if isinstance(x, float) else in_context(context, x, context.prec), 1, 1)
     for array in frames.values():
         array[...] = rounded(array)

@@ -152,9 +152,8 @@ class _Algebra:
         """Rank and signature of the trace form (a, b) -> tr(ab): the numbers of points, and of real points."""
         # Each multiplied by a positive number, which does not change the inertia.
         elements = [_primitive(reduce(fmpz_mat.__mul__, (self.integral[v] for v in m))) for m in self.basis]
-        form = _traces(elements, elements)
         # All roots are real, so that Descartes' rule is exact.
-        polynomial = form.charpoly().coeffs()
+        polynomial = _traces(elements, elements).charpoly().coeffs()
         positive = _sign_changes(polynomial)
         negative = _sign_changes([-c if i % 2 else c for i, c in enumerate(polynomial)])
         return positive + negative, positive - negative
@@ -377,8 +376,7 @@ def _enclosures(points: Points, precision: Precision, given: Sequence[Sequence[F
 
 def _branch(coordinates: tuple, multiplicity: int) -> Branch:
     """The rotation with these homogeneous coordinates."""
-    leading = next(c for c in coordinates if not c.is_zero())
-    sign = -1 if leading < 0 else 1
+    sign = -1 if next(c for c in coordinates if not c.is_zero()) < 0 else 1
     q = tuple(sign * c for c in unit(coordinates))
     sine = arb(0) if all(c.is_zero() for c in q[1:]) else sum((c * c for c in q[1:]), arb(0)).sqrt()
     return Branch(q, 2 * arb.atan2(sine, q[0]), multiplicity)
