@@ -20,7 +20,7 @@ from chapsym.numbers.precisions import flint_bits
 
 from .balls import NotProved
 from .document import Say
-from .reduced import Axes, Reduced, Top, angle, cross
+from .reduced import Axes, Levels, Reduced, Top, angle, cross
 
 #: The trial levels have x/(1 - x) = e^t for this many t up to ±REACH, x from the separatrix to the axis.
 LEVELS, REACH = 29, 14.0
@@ -39,7 +39,7 @@ class Staircase:
     levels: list[Fraction]
     turns: list[list[float]]
 
-    def between(self, steps: int, half_turns: int) -> tuple[Fraction, Fraction] | None:
+    def between(self, steps: int, half_turns: int) -> Levels | None:
         """Two levels with fewer and with more half turns in this many steps."""
         found = [turns[steps - 1] for turns in self.turns]
         for (x, a), (y, b) in pairwise(zip(found, self.levels, strict=True)):
@@ -76,7 +76,7 @@ def half_turns(top: Top, level: Fraction, axes: Axes, steps: int) -> list[float]
         return found
 
 
-def refined(top: Top, ends: tuple[Fraction, Fraction], axes: Axes, steps: int, turns: int) -> tuple[Fraction, Fraction]:
+def refined(top: Top, ends: Levels, axes: Axes, steps: int, turns: int) -> Levels:
     """Bisects two levels, one with fewer turns, until q steps from both turn nearly the same."""
     (low, high), off = ends, [math.inf, math.inf]
     for _ in range(LOOK_BITS):
@@ -106,9 +106,7 @@ def starts(top: Top, level: Fraction, axes: Axes, steps: int) -> tuple[str, str]
     return "b", str(Fraction(f"{t:.3g}"))
 
 
-def end_of_plateau(
-    reduced: Reduced, near: tuple[Fraction, Fraction], axes: Axes, t: Fraction, steps: int, bits: int
-) -> Fraction:
+def end_of_plateau(reduced: Reduced, near: Levels, axes: Axes, t: Fraction, steps: int, bits: int) -> Fraction:
     """The level near two others on which a start returns to its line through 0, by the secant method."""
 
     def off(level: Fraction) -> Fraction:

@@ -21,6 +21,8 @@ from .balls import NotProved, near_root
 
 Vector = tuple[arb, ...]
 Axes = tuple[int, int, int]
+#: Two levels, between which one is looked for.
+Levels = tuple[Fraction, Fraction]
 #: The number of steps in h from 0 that continue a root beyond the bound of `small-branch`.
 CONTINUED = 16
 

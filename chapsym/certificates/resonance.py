@@ -12,7 +12,7 @@ from chapsym.numbers.precisions import flint_bits
 from . import plateau
 from .balls import simplest
 from .document import Say
-from .reduced import Axes, Reduced, Top
+from .reduced import Axes, Levels, Reduced, Top
 
 #: The bits beyond the digits, for the growth of the balls in a step, and to decide how numbers round.
 STEP_BITS, SPARE_BITS = 4, 64
@@ -45,7 +45,7 @@ def find(top: Top, steps: int | None, half_turns: int, progress: Say) -> Resonan
     return Resonance(axes, _middle(top, near, axes, steps, starts, progress), steps, half_turns, starts)
 
 
-def _circle(top: Top, steps: int | None, half_turns: int, progress: Say) -> tuple[Axes, tuple[Fraction, Fraction], int]:
+def _circle(top: Top, steps: int | None, half_turns: int, progress: Say) -> tuple[Axes, Levels, int]:
     """The axes of the circle with the larger displacement, two levels near it, and the steps."""
     sides = plateau.staircases(top, steps or plateau.LOOK_STEPS, progress)
     numbers = [steps] if steps else [q for q in range(3, plateau.LOOK_STEPS + 1, 2) if math.gcd(q, half_turns) == 1]
@@ -91,10 +91,7 @@ def on_level(top: Top, level: Fraction, steps: int | None, half_turns: int | Non
     return Resonance(axes, level, steps, counted, plateau.starts(top, level, axes, steps))
 
 
-def _middle(
-    top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, starts: tuple[str, str],
-    progress: Say,
-) -> Fraction:  # fmt: skip
+def _middle(top: Top, near: Levels, axes: Axes, steps: int, starts: tuple[str, str], progress: Say) -> Fraction:
     """The simplest level in the middle half of the plateau, at a precision that is doubled until it is resolved."""
     if not math.isfinite(power := plateau.nome_power(top, near[0], axes, steps)):
         raise BadInput("the moments of inertia are too far apart for the search")

@@ -111,6 +111,8 @@ typedef struct { real a0; int64_t a1; } t_ri;
 INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }
 
 """
+#: The number of roundings of each kernel; None if it is unknown, or too large for the lemma.
+Roundings = Mapping[str, int | None]
 #: The interface of the loops.
 INTERFACE = """#ifndef LOOPS_H
 #define LOOPS_H
@@ -274,7 +276,7 @@ def guarded(guard: str, text: str) -> str:
     return f"{guard}\n{text}#endif\n" if guard and text else text
 
 
-def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Mapping[str, int | None]) -> dict[str, str]:
+def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Roundings) -> dict[str, str]:
     """The files by name; `load` gives the text of a module of the loops, of the kernels, or of their imports."""
     program = Program(load)
     loops = {name: program.module(f"{PACKAGE}.{name}").functions.values() for name in LOOPS}
@@ -343,7 +345,7 @@ ALONE = "#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n"
 ALONE += "typedef double real;\n#define R(x) ((real)(x))\n#define INLINE static inline\n\n"
 
 
-def library(texts: Texts, kernels: Sequence[Kernel], roundings: Mapping[str, int | None]) -> dict[str, str]:
+def library(texts: Texts, kernels: Sequence[Kernel], roundings: Roundings) -> dict[str, str]:
     """chapsym.h and chapsym.c: every kernel as a function of arrays, and a step."""
     declared, defined = interface(texts, kernels, "chapsym", roundings)
     rows = texts.program.module(f"{PACKAGE}.loop").names["ROWS"]
@@ -364,9 +366,7 @@ def library(texts: Texts, kernels: Sequence[Kernel], roundings: Mapping[str, int
     }
 
 
-def kernels_alone(
-    text: str, kernels: Sequence[Kernel], prefix: str, roundings: Mapping[str, int | None]
-) -> dict[str, str]:
+def kernels_alone(text: str, kernels: Sequence[Kernel], prefix: str, roundings: Roundings) -> dict[str, str]:
     """The same for the kernels of another register, given as a text: PREFIX.h and PREFIX.c."""
     program = Program(lambda path: text)
     functions = program.module("chapsym.generated").functions
@@ -380,9 +380,7 @@ def kernels_alone(
     }
 
 
-def interface(
-    texts: Texts, kernels: Sequence[Kernel], prefix: str, roundings: Mapping[str, int | None]
-) -> tuple[str, str]:
+def interface(texts: Texts, kernels: Sequence[Kernel], prefix: str, roundings: Roundings) -> tuple[str, str]:
     """The declaration and the definition of every kernel as a function of arrays, PREFIX_kernel."""
     functions = texts.program.module("chapsym.generated").functions
     declared, defined = list[str](), list[str]()

@@ -452,8 +452,7 @@ class Trajectory:
         there, frames = standing(momentum=momentum, gamma=self.gamma, attitude=self.attitude, contact=self.contact)
         clock, axes = np.asarray(self.time if timed else self.index, dtype=np.float64), self.ball.axes
         if axes is not None:
-            vectors = {name: self.ball.to_principal(frames[name], frames=True) for name in ("momentum", "gamma")}
-            frames |= vectors
+            frames |= {name: self.ball.to_principal(frames[name], frames=True) for name in ("momentum", "gamma")}
             if self.attitude is not None:
                 frames["attitude"] = principal_axes.attitude_to_principal(axes[..., np.newaxis, :], frames["attitude"])
         found = States(self.ball.principal, clock, there, **frames).at(times)

@@ -237,10 +237,8 @@ class TopMotion(Brief):
         first = self.direction / np.sqrt(self.direction @ self.direction)
         # The least rotation from the present direction to the first one, then a rotation about the first one.
         middle = first + here
-        length = np.sqrt((middle * middle).sum(axis=-1))
-        least = (
-            np.concatenate([(middle @ first)[:, np.newaxis], np.cross(here, first)], axis=-1) / length[:, np.newaxis]
-        )
+        length = np.sqrt((middle * middle).sum(axis=-1, keepdims=True))
+        least = np.concatenate([(middle @ first)[:, np.newaxis], np.cross(here, first)], axis=-1) / length
         tensor, moments, _ = _scaled(self)
         before = across(tensor, moments, first)
         after = kernels.rotate(least, across(tensor, moments, here))
@@ -314,8 +312,7 @@ class ExactCurve:
         length = sum((x * x for x in vector), arb(0)).sqrt()
         direction = [x / length for x in vector]
         height = arb(size) if momentum is None else length
-        squares = (direction[i] ** 2 / m for i, m in zip(curve.axes, moments, strict=True))
-        level = sum(squares, arb(0))
+        level = sum((direction[i] ** 2 / m for i, m in zip(curve.axes, moments, strict=True)), arb(0))
         k2, square, *_ = curve_increment(*(*moments, level))
         k2 = k2 if curve.modulus > 0.0 else arb(0)
         if not k2 < 1:
@@ -337,8 +334,7 @@ class ExactCurve:
         La, Lb, Lc = self.moments
         upper, lower = abs(1 - Lc * self.level), abs(La * self.level - 1)
         bc, ac = abs(Lb - Lc), abs(La - Lc)
-        squares = La * upper / ac, Lb * upper / bc, Lc * lower / ac
-        Ca, Cb, Cc = (float(square.sqrt()) for square in squares)
+        Ca, Cb, Cc = (float(x.sqrt()) for x in (La * upper / ac, Lb * upper / bc, Lc * lower / ac))
         return replace(
             self.curve, amplitudes=(Ca, Cb, math.copysign(Cc, self.curve.amplitudes[2])), rate=float(self.rate),
             modulus=float(self.k2.sqrt()), complement=float((1 - self.k2).sqrt()), level=float(self.level),
@@ -452,8 +448,7 @@ def _is_top(K: Floats, g: Floats, J: Floats, D: Floats) -> np.ndarray:
         height = (scaled * g).sum(axis=-1)
         upright = np.abs(scaled - height[:, np.newaxis] * g).max(axis=-1) <= VERTICAL
     pairs = sum((J[:, i] == J[:, (i + 1) % 3]).astype(int) for i in range(3))
-    moving = moves(J, D, scaled)
-    return moving & ((D == 0.0) | (upright & (pairs == 1)))
+    return moves(J, D, scaled) & ((D == 0.0) | (upright & (pairs == 1)))
 
 
 @np.errstate(under="ignore")

@@ -65,7 +65,7 @@ def run(
     """`double.run` at a precision.  Frame 0 is given in float64; other levels rewrite it, γ divided by its length."""
     substeps(order)  # raises BadInput for another order
     if isinstance(precision, Digits | Enclosure):
-        from .balls import run as run_in_arb  # takes takes 40 ms, with mpmath and flint
+        from .balls import run as run_in_arb  # takes 40 ms, with mpmath and flint
 
         run_in_arb(precision, balls, steps, every, frames, order, progress)
     else:

@@ -194,9 +194,8 @@ def trajectory_n(
     frames, ends = _stepped(precision, state, order, Steps(0, steps, every), threads, Count(progress))
     flat = (*(frames.get(name) for name in MOVING), ends.taken, ends.status)
     result = of_balls(
-        shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order),
-        precision=precision_of(precision),
-    )  # fmt: skip
+        shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order), precision=precision_of(precision)
+    )
     return finished(result, ends.reach)
 
 
