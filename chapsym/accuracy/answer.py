@@ -75,10 +75,8 @@ class Request:
         object.__setattr__(self, "frames", whole_number(self.frames, "frames", 1, MOST_FRAMES))
         if self.accuracy < LEAST:
             raise BadInput(f"accuracy must be at least {LEAST:g}: the compositions' coefficients have 40 digits")
-        if is_flag(self.attitude):
-            object.__setattr__(self, "attitude", bool(self.attitude))
-        else:
-            object.__setattr__(self, "attitude", initial_attitude(self.attitude, g[0]))
+        followed = bool(self.attitude) if is_flag(self.attitude) else initial_attitude(self.attitude, g[0])
+        object.__setattr__(self, "attitude", followed)
         if self.body is True:
             # The run computes the least rotation at its own precision.  For γ upside down, components whose squares
             # underflow in float64 select another half turn at a precision of wider range.

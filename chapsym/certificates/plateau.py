@@ -51,10 +51,10 @@ class Staircase:
 def staircases(top: Top, steps: int, progress: Say) -> list[Staircase]:
     """The circles around both axes, except those without a step."""
     found = []
+    shares = [1.0 / (1.0 + math.exp(REACH * (1.0 - 2.0 * i / (LEVELS - 1)))) for i in range(LEVELS)]
     for axes in top.sides():
         _, b, c = axes
         inner, outer = 1 / top.moments[b], 1 / top.moments[c]
-        shares = [1.0 / (1.0 + math.exp(REACH * (1.0 - 2.0 * i / (LEVELS - 1)))) for i in range(LEVELS)]
         levels = [inner + (outer - inner) * Fraction(x) for x in shares]
         counted = {}
         for number, level in enumerate(levels):

@@ -53,8 +53,7 @@ def judge(claim: Claim) -> Judgement:
     except BaseException as error:  # a proof that exits has failed
         frames = traceback.extract_tb(error.__traceback__)
         place = ([frame for frame in frames if frame.filename == sources.file(claim.prove.__module__)] or frames)[-1]
-        reason = f"the proof raised {raised(error)} ({Path(place.filename).name}:{place.lineno})"
-        return _open(claim, reason)
+        return _open(claim, f"the proof raised {raised(error)} ({Path(place.filename).name}:{place.lineno})")
 
 
 def _open(claim: Claim, reason: str) -> Judgement:

@@ -192,10 +192,8 @@ def trajectory_n(
     every = min(every, steps + 1)
     shape, state = start(ball, momentum, gamma, attitude, contact)
     frames, ends = _stepped(precision, state, order, Steps(0, steps, every), threads, Count(progress))
-    flat = (*(frames.get(name) for name in MOVING), ends.taken, ends.status)
-    result = of_balls(
-        shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order), precision=precision_of(precision)
-    )
+    index, flat = np.arange(0, steps + 1, every), (*(frames.get(name) for name in MOVING), ends.taken, ends.status)
+    result = of_balls(shape, ball, index, *flat, order=int(order), precision=precision_of(precision))
     return finished(result, ends.reach)
 
 

@@ -159,8 +159,7 @@ def _solve(found: Branches, part: slice, K: Floats, g: Floats, J: Floats, D: Flo
     q = eight.points.real.copy()
     q[..., 0] /= unit[:, np.newaxis]
     where = np.nonzero(real)[0]
-    roots = _polished(q[real], K[where], g[where], J[where], D[where])
-    q[real] = _signed(roots)
+    q[real] = _signed(_polished(q[real], K[where], g[where], J[where], D[where]))
     q[~real] = np.nan
     angle = 2 * np.arctan2(np.linalg.norm(q[..., 1:], axis=-1), q[..., 0])
     order = np.lexsort((-q[..., 3], -q[..., 2], -q[..., 1], angle))  # NaN is last

@@ -149,12 +149,9 @@ def at_point(name: str, point: Mapping[str, Tree], facts: list[Fact]) -> str:
     for relation, sides in facts:
         equations = [equation(a, b, names) for a, b in sides]
         pairs = listed(f"({data(a, names)}, {data(b, names)})" for a, b in sides)
-        if relation == "=":
-            texts += [f"({conjunction(equations)})"]
-            trees.append(f"Equal {pairs}")
-        else:
-            texts.append(f"~ ({conjunction(equations)})")
-            trees.append(f"Unequal {pairs}")
+        negation, kind = ("", "Equal") if relation == "=" else ("~ ", "Unequal")
+        texts.append(f"{negation}({conjunction(equations)})")
+        trees.append(f"{kind} {pairs}")
     values = [Fraction(x) for x in point.values()]
     rationals = "; ".join(f"Qmake {integer(x.numerator)} {x.denominator}" for x in values)
     all_names = " ".join(identifier for identifier, _ in names.values())
