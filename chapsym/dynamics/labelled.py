@@ -175,7 +175,7 @@ def of_run(run: Any) -> Arrays:
         columns |= {f"{name}{end}": getattr(more, name, None) for name in FRAMES}
     if run.time_step is not None:
         K = run.angular_momentum()
-        columns |= run.derived("omega", "energy") | {"angular_momentum": K}
+        columns |= run.derived() | {"angular_momentum": K}
         if motion:
             columns |= {"momentum": K, f"momentum{BOUND}": _of_quotient(columns[f"momentum{BOUND}"], K, run.time_step)}
     variables: dict[str, Labelled] = {}

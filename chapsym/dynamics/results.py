@@ -509,7 +509,7 @@ class Trajectory:
         return self.derived("energy")["energy"]
 
     def derived(self, *names: str) -> dict[str, Floats]:
-        """`omega`, `energy` or both, NaN after a ball of a batch stopped; raises BadInput if there is no time step."""
+        """`omega` and `energy`, or those named, NaN after a ball of a batch stopped; BadInput without a time step."""
         with self.precision.working():
             ball, missing = self.ball, self.index > self.taken[..., np.newaxis]
             K = np.where(missing[..., np.newaxis], 0.0, self.angular_momentum())
@@ -521,7 +521,7 @@ class Trajectory:
             omega = omega if ball.axes is None else ball.from_principal(omega, frames=True)
             omega[missing] = energy[missing] = np.nan
             found = {"omega": omega, "energy": energy}
-            return {name: self._in_range(name, x) for name, x in found.items() if name in names}
+            return {name: self._in_range(name, x) for name, x in found.items() if name in (names or found)}
 
     def _in_range(self, name: str, values: Floats) -> Floats:
         """The values; raises BadInput if those of a frame that was reached are beyond the range of floats."""
