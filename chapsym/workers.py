@@ -13,7 +13,7 @@ from typing import Any
 
 #: Ignores the warning of Python's tracker, which removes the semaphores of a killed process; an option -W.
 TRACKER = "ignore:resource_tracker:UserWarning"
-#: The reason of a broken pool whose pipe to a process, a worker or Python's tracker, is closed: no closed output.
+#: Why a pool is broken if a worker, or Python's tracker, has closed its pipe; standard output is not closed.
 CANNOT_BEGIN = "a worker process cannot begin"
 #: Seconds to wait for workers that were ended; in a compiled loop they may be longer.
 LONG = 2.0

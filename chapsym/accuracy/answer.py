@@ -460,7 +460,7 @@ def _foreseen(request: Request, limit: float) -> tuple[Problem | None, Choice]:
     in_range(request.time, request.angular_momentum)
     problem = request.problem
     if request.accuracy >= motion.FINEST * request.unit and problem.floor <= motion.ROUNDING * request.accuracy:
-        steps, method = max(round(problem.expected), 1), Method(NAMED["double"], motion.EXTRAPOLATED)
+        steps, method = max(round(problem.long_steps), 1), Method(NAMED["double"], motion.EXTRAPOLATED)
         return problem, _within(Choice(method, steps, request.time / steps, motion.nominal(problem)), limit)
     return None, _doubled(request, limit)
 

@@ -426,7 +426,7 @@ class Problem:
         return self.survey[expected.RATE]
 
     @property
-    def expected(self) -> float:
+    def long_steps(self) -> float:
         """The approximate number of long steps of all balls."""
         with np.errstate(over="ignore", under="ignore"):  # of arguments that are refused
             return float((self.end / self.survey[expected.FIRST]).sum()) if self.frames else 0.0
@@ -453,7 +453,7 @@ class Problem:
 
 def nominal(problem: Problem) -> float:
     """The nominal seconds of one core for the motion."""
-    return 1e-4 + problem.expected * STEP + problem.frames * len(problem) * FRAME
+    return 1e-4 + problem.long_steps * STEP + problem.frames * len(problem) * FRAME
 
 
 def moved(problem: Problem, progress: Callable[[float], None] = lambda done: None) -> Motion:

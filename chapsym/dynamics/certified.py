@@ -163,9 +163,9 @@ def certify(
 
 def _check_frames(trajectory: Trajectory, given: Mapping[str, np.ndarray | None]) -> None:
     """Raises BadInput for frames that no run has, as a trajectory may be put together by hand."""
-    index = trajectory.index
-    if len(index) > 1 and (np.diff(index) != max(index[1] - index[0], 1)).any():
-        raise BadInput("the steps of the frames, trajectory.index, must be equally far apart, as those of a run")
+    index, apart = trajectory.index, np.diff(trajectory.index)
+    if not len(index) or (apart < 1).any() or (apart != apart[:1]).any():
+        raise BadInput("trajectory.index must be the steps of one frame or more, equally far apart, as those of a run")
     if given["contact"] is not None and trajectory.ball.radius is None:
         raise BadInput("trajectory.contact needs the radius: give its ball mass and radius")
     reached = index - index[0] <= trajectory.taken[..., np.newaxis]

@@ -57,9 +57,11 @@ class States:
     @np.errstate(over="ignore", under="ignore", invalid="ignore")  # an overflow is a large rotation
     def turning(self) -> float:
         """The largest rotation between successive frames of all balls, in radians; 0 for a single frame."""
-        own, *_ = self._in_own_units()
-        speed = np.sqrt((own._omega() ** 2).sum(axis=-1))
-        turns = np.maximum(speed[..., 1:], speed[..., :-1]) * np.diff(own.clock)
+        return self._in_own_units()[0]._turning()
+
+    def _turning(self) -> float:
+        speed = np.sqrt((self._omega() ** 2).sum(axis=-1))
+        turns = np.maximum(speed[..., 1:], speed[..., :-1]) * np.diff(self.clock)
         return float(np.max(turns, initial=0.0, where=self.there[..., 1:] & self.there[..., :-1]))
 
     def _in_own_units(self) -> tuple["States", int, np.ndarray, np.ndarray]:
@@ -89,16 +91,18 @@ class States:
         """The states at these times, by quintics; raises BadInput for times out of range and frames too far apart."""
         if (given := numbers(times, "times")).ndim > 1:
             raise BadInput(f"times must be one number or a list of them, not an array with the axes {given.shape}")
+        if not len(self.clock):
+            raise BadInput("there is nothing between the frames: the run has none")
         asked, first, last = np.atleast_1d(given), float(self.clock[0]), float(self.clock[-1])
         wanted = np.clip(asked, first, last)
         if (np.abs(wanted - asked) > ROUNDED * max(abs(first), abs(last))).any():
             raise BadInput(f"times must lie between the first frame and the last, {first} and {last}")
-        if not (turn := self.turning()) <= MOST_TURN:
+        own, time, mass, length = self._in_own_units()
+        if not (turn := own._turning()) <= MOST_TURN:
             raise BadInput(
                 f"frames are up to {turn:.3g} radians of turning apart, too far to tell what is between (at most "
                 f"{MOST_TURN}): keep more frames, with a smaller `every`"
             )
-        own, time, mass, length = self._in_own_units()
         K, gamma, omega, attitude, contact = own._between(np.ldexp(wanted, -time))
         K, omega = np.ldexp(K, (mass - time)[..., np.newaxis, np.newaxis]), np.ldexp(omega, -time)
         contact = None if contact is None else np.ldexp(contact, length[..., np.newaxis, np.newaxis])

@@ -29,8 +29,9 @@ if TYPE_CHECKING:
 
 #: A result of any kind: a dataclass of arrays with these vectors.
 Run = TypeVar("Run", bound=Any)
-#: The vectors of arguments and of results, by their names.
+#: The vectors of arguments and of results, by their names; and what is derived from K, γ, J and D.
 VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
+DERIVED = {"omega": kernels.angular_velocity, "energy": kernels.kinetic_energy}
 
 
 def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
@@ -517,11 +518,14 @@ class Trajectory:
             if ball.axes is not None:
                 K, gamma = ball.to_principal(K, frames=True), ball.to_principal(gamma, frames=True)
             frames = K, gamma, ball.mass_tensor[..., np.newaxis, :], ball.D[..., np.newaxis]
-            omega, energy = kernels.angular_velocity(*frames), np.array(kernels.kinetic_energy(*frames))
-            omega = omega if ball.axes is None else ball.from_principal(omega, frames=True)
-            omega[missing] = energy[missing] = np.nan
-            found = {"omega": omega, "energy": energy}
-            return {name: self._in_range(name, x) for name, x in found.items() if name in (names or found)}
+            found: dict[str, Floats] = {}
+            for name in names or DERIVED:
+                values = np.array(DERIVED[name](*frames))
+                if name in VECTORS and ball.axes is not None:
+                    values = ball.from_principal(values, frames=True)
+                values[missing] = np.nan
+                found[name] = self._in_range(name, values)
+            return found
 
     def _in_range(self, name: str, values: Floats) -> Floats:
         """The values; raises BadInput if those of a frame that was reached are beyond the range of floats."""

@@ -200,6 +200,7 @@ def test_the_contact_point_starts_at_that_of_the_run():
     [
         ({"index": [0, 1, 3]}, "equally far apart"),
         ({"index": [0, 0, 0]}, "equally far apart"),
+        ({"index": [], "momentum": np.empty((0, 3)), "gamma": np.empty((0, 3))}, "one frame or more"),
         ({"gamma": [(0, 0, 1), (0, 0, np.inf), (0, 0, 1)]}, "trajectory.gamma has numbers that are not finite"),
         ({"momentum": [(np.nan, 0, 0)] * 3}, "trajectory.momentum has numbers that are not finite"),
         ({"contact": [(0, 0)] * 3}, "trajectory.contact needs the radius"),

@@ -107,6 +107,13 @@ def test_a_time_that_is_none_of_the_run_is_refused(times):
         rolled(48).at(times)
 
 
+def test_a_run_of_no_frames_has_nothing_between_them():
+    run = rolled(48)
+    none = {name: getattr(run, name)[:0] for name in ("index", "momentum", "gamma", "attitude", "contact")}
+    with pytest.raises(chapsym.BadInput, match="the run has none"):
+        replace(run, **none).at(0.0)
+
+
 def test_the_last_time_in_decimals_is_that_of_the_last_frame():
     run = chapsym.roll(BALL, (3, -2, 1), 0.35, 3)
     assert run.time[-1] < 1.05  # 3 times 0.35 in float64

@@ -556,3 +556,18 @@ def test_no_webgl_is_told(launch, results):
     assert "which this browser does not offer" in alert.inner_text()
     assert page.tab.locator("[data-read=position]").inner_text() == "0.000, 0.000 m"
     browser.close()
+
+
+@pytest.mark.parametrize(
+    ("size", "away", "shown"), [(1.0, 1e9, r"\d{9,10}\.\d+, \d{9,10}\.\d+ m"), (1e-20, 0.0, r".*e−2\d.*")]
+)
+def test_numbers_of_all_sizes_are_readable(rolling, tmp_path, size, away, shown):
+    data = rolled(20)
+    write_page(data.assign(radius=size * data["radius"], contact=size * data["contact"] + away), tmp_path / "page.html")
+    page = rolling(tmp_path / "page.html")
+    page.ask("chapsym.seek(20)")
+    place = page.tab.locator("[data-read=position]")
+    assert re.fullmatch(shown, place.inner_text()), place.inner_text()
+    assert page.ask(
+        "(() => { const x = document.querySelector('[data-read=position]'); return x.scrollWidth <= x.clientWidth })()"
+    )

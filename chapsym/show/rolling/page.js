@@ -18,8 +18,8 @@ let speed = motion.unit === 's' && length > 3 && length < 90 ? 0 : Math.round(Ma
 
 // --- what is told ---
 
-const digits = (x, least) => least < 1e-12 || least > 1e6 ? x.toExponential(2)
-  : x.toFixed(Math.max(0, -Math.floor(Math.log10(least))));
+const digits = (x, least) => (least < 1e-12 || least > 1e6 ? x.toExponential(2)
+  : x.toFixed(Math.max(0, -Math.floor(Math.log10(least))))).replaceAll('-', '−');
 const significant = (x) => Number(x.toPrecision(4)).toString().replace('-', '−');
 const reading = (t) => motion.unit === 's' ? `${digits(t, length / 1000 || 1)} s` : `step ${Math.round(t)}`;
 
@@ -36,14 +36,14 @@ function metres(x) {
 function tell() {
   const ball = motion.balls[stage ? stage.followed : 0], frame = motion.frameAt(time);
   const least = ball.radius / 100;
-  const [x, y] = ball.position(frame).map((v) => digits(v, least).replace('-', '−'));
+  const [x, y] = ball.position(frame).map((v) => digits(v, least));
   write('time', `${reading(time)}${motion.unit === 's' ? '' : ` of ${motion.end}`}`);
   write('position', `${x}, ${y} m`);
   if (ball.vectors.omega) {
     const omega = ball.inBody('omega', frame), step = (ball.largest.omega || 1) / 500;
     const over = ball.stops && frame > ball.frames - 1; // nothing is known of it any more
     write('speed', over ? 'stopped' : `${digits(omega.length(), step)} rad/s`);
-    write('omega', over ? '—' : omega.toArray().map((v) => digits(v, step).replace('-', '−')).join(', ') + ' rad/s');
+    write('omega', over ? '—' : omega.toArray().map((v) => digits(v, step)).join(', ') + ' rad/s');
   }
   find('#now').textContent = motion.unit === 's' ? `${digits(time, length / 1000 || 1)} / ${reading(motion.end)}`
     : `${Math.round(time)} / ${motion.end}`;
