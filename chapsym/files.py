@@ -45,15 +45,25 @@ def check_destination(path: Path) -> None:
         raise CannotWrite(f"{str(path)!r} cannot be written: {error}") from None
 
 
+def check_folder(folder: Path) -> None:
+    """Raises CannotWrite, before anything is computed, if `folder` is not, and cannot become, one that takes files."""
+    there = folder
+    while not os.path.exists(there):
+        there = there.parent
+    if not there.is_dir():
+        clause = "it is a file" if there == folder else f"{there} is a file"
+        raise CannotWrite(f"{folder} cannot be a folder of results: {clause}")
+    if not os.access(there, os.W_OK):
+        raise CannotWrite(f"{folder} cannot be written: choose a folder that is writable")
+
+
 def made(folder: Path) -> Path:
     """A folder for results, made if it is not there; raises CannotWrite, before anything is computed, if it cannot."""
+    check_folder(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        clause = "it is a file" if isinstance(error, FileExistsError) else error.strerror or error
-        raise CannotWrite(f"{folder} cannot be a folder of results: {clause}") from None
-    if not os.access(folder, os.W_OK):
-        raise CannotWrite(f"{folder} cannot be written: choose a folder that is writable")
+        raise CannotWrite(f"{folder} cannot be a folder of results: {error.strerror or error}") from None
     return folder
 
 

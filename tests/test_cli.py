@@ -108,6 +108,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["certify", "motion", "--digits"], "'--digits' requires an argument. (see chapsym certify motion --help)"),
         (["step", "--json=1"], "Option '--json' does not take a value. (see chapsym step --help)"),
         (["show", "."], "'.' is no result"),
+        (["show", FIRST, "-o", f"{FIRST}/x/y"], "first.toml is a file"),  # before the scene is run
         (["report", "-o", "x.pdf"], "the output must end in .html or .md or .tex or .json"),
         (["report", "-o", "x"], "the output must end in .html or .md or .tex or .json"),
         (["report", "-o", "nowhere/x.md"], "the folder nowhere does not exist"),

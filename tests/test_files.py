@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from chapsym.files import CannotWrite, check_destination, made, pasted, write_whole
+from chapsym.files import CannotWrite, check_destination, check_folder, made, pasted, write_whole
 
 
 def test_a_file_is_replaced_and_nothing_is_left_beside_it(tmp_path):
@@ -64,10 +64,12 @@ def test_a_folder_is_made_or_there_or_refused(tmp_path, monkeypatch):
     assert made(made(tmp_path / "new" / "deep")).is_dir()
     (tmp_path / "file").write_text("")
     monkeypatch.setattr(os, "access", lambda place, how: place.name != "deep")
-    refused = {"file": "it is a file$", "file/x": "Not a directory", "x" * 300: "too long", "new/deep": "is writable"}
+    refused = {"file": "it is a file$", "file/x/y": "file is a file$", "x" * 300: "too long", "new/deep": "is writable"}
     for name, clause in refused.items():
         with pytest.raises(CannotWrite, match=f"cannot be .*{clause}"):
             made(tmp_path / name)
+    check_folder(tmp_path / "other" / "deep")
+    assert not (tmp_path / "other").exists()
 
 
 @pytest.mark.parametrize("name", ["plain.json", "a b", "it's", "-dash", "line\nend's \\n", "\x1b[2K", "$HOME `x`", "é"])

@@ -113,7 +113,7 @@ def _named(names: str, known: list[str]) -> list[str]:
 
 
 def _opened(result: Path, folder: Path) -> "Dataset":
-    """The result; a scene is run in memory, once the folder is known to take pictures."""
+    """The result; a scene is run in memory, once its folder is known to take pictures."""
     from chapsym import files
     from chapsym.scene import load
     from chapsym.scene.result import formats
@@ -127,7 +127,6 @@ def _opened(result: Path, folder: Path) -> "Dataset":
         except formats.NotOurs:
             return result_of(result)
     scene = load(result)
-    if folder.exists():
-        files.check_destination(folder / "page.html")
+    files.check_folder(folder)
     with following() as report:
         return run_scene(scene, report).dataset
