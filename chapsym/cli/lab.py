@@ -13,7 +13,7 @@ import typer
 
 from .app import app
 from .options import Json, argument, takes
-from .output import Data, fail, note, print_json, put
+from .output import Data, fail, note, print_json, progress_bar, put
 
 if TYPE_CHECKING:
     from chapsym.mechanics import Cell, System
@@ -177,11 +177,14 @@ def _crew(jobs: int) -> Iterator[Later]:
         fail("a process that measured a system ended, perhaps for lack of memory: try --jobs 1", 1)
 
 
-def _cell(of: "Path | System", *how: Any) -> "Cell":
-    """A cell, of a system or of the file of one, which another process reads."""
+def _cell(of: "Path | System", method: str, steps: int, *how: Any) -> "Cell":
+    """A cell, of a system or of the file of one, which another process reads: only one process shows its steps."""
     from chapsym.mechanics import loaded, measured
 
-    return measured(loaded(of) if isinstance(of, Path) else of, *how)
+    if isinstance(of, Path):
+        return measured(loaded(of), method, steps, *how)
+    with progress_bar(f"steps by {method}", steps) as shown:
+        return measured(of, method, steps, *(*how, shown))
 
 
 def _said(given: "Path | System", decide: bool) -> str:

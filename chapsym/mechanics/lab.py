@@ -1,6 +1,7 @@
 """Measurements of a method on a system: energy over many steps, constraints, order, cost."""
 
 import math
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
 from itertools import pairwise
@@ -13,7 +14,7 @@ from chapsym.prove.trees import Data
 
 from .judged import Verdict, verdicts
 from .methods import Scheme
-from .motion import Motion, NotSolved, Runner, whole_number
+from .motion import Motion, NotSolved, Runner, check_callback, whole_number
 from .system import System
 
 #: The fraction of the steps at each end whose means are compared, and the number of stored points of the energy.
@@ -107,13 +108,9 @@ class Cell:
 
 @np.errstate(all="ignore")  # no figure for a number that is not finite
 def measured(
-    system: System,
-    method: str,
-    steps: int = 100_000,
-    length: float | None = None,
-    halve: bool = False,
-    decide: bool = False,
-) -> Cell:
+    system: System, method: str, steps: int = 100_000, length: float | None = None, halve: bool = False,
+    decide: bool = False, progress: Callable[[int, int], None] = lambda done, of: None,
+) -> Cell:  # fmt: skip
     """Measures a method on a system.
 
     Parameters
@@ -128,6 +125,8 @@ def measured(
         Whether the drift is also measured with steps of half the length.
     decide : bool, optional
         Whether properties are also decided exactly, as far as possible.
+    progress : callable, optional
+        Called now and then with the numbers of steps taken and to be taken.
 
     Returns
     -------
@@ -146,19 +145,22 @@ def measured(
     """
     runner = Runner(system, method)
     steps = whole_number(steps, "steps")
+    check_callback(progress)
     h = system.length(length)
     first = Cell(system.name, method, steps, h, kept=keeps(system, runner.scheme))
     if decide:
         first = replace(first, verdicts=verdicts(system, runner.scheme))
     try:
         runner.march(1, h)  # what is compiled once
-        motion = runner.march(steps, h, -(-steps // MOST))
+        whole, every = 3 * steps if halve else steps, -(-steps // MOST)
+        motion = runner.march(steps, h, every, progress=lambda done: progress(done, whole))
     except NotSolved as error:
         return replace(first, failed=str(error))
     half = None
     if halve:
         with suppress(NotSolved):
-            half = _figures(runner.march(2 * steps, h / 2, 2 * -(-steps // MOST)))["drift"]
+            shorter = runner.march(2 * steps, h / 2, 2 * every, progress=lambda done: progress(steps + done, whole))
+            half = _figures(shorter)["drift"]
     order = returns = None
     with suppress(NotSolved):
         order = _order(runner, h)

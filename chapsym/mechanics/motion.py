@@ -250,6 +250,12 @@ def whole_number(given: float, what: str) -> int:
     return int(given)
 
 
+def check_callback(progress: object) -> None:
+    """Raises BadSystem unless `progress` is callable."""
+    if not callable(progress):
+        raise BadSystem(f"progress must be a function, which is called with the steps taken, not {brief(progress)}")
+
+
 class Runner:
     """A method prepared for a system: derived, generated, compiled.
 
@@ -385,8 +391,9 @@ class Runner:
         return {kernel.name: scope[kernel.name] for kernel in kernels}
 
     def march(
-        self, steps: int, length: float | str | Fraction | None = None, every: int = 1, start: np.ndarray | None = None
-    ) -> Motion:
+        self, steps: int, length: float | str | Fraction | None = None, every: int = 1,
+        start: np.ndarray | None = None, progress: Callable[[int], None] = lambda done: None,
+    ) -> Motion:  # fmt: skip
         """Takes steps from the start of the system.
 
         Parameters
@@ -398,6 +405,8 @@ class Runner:
             The number of steps from one record to the next.
         start : numpy.ndarray, optional
             Another first state, such as `Motion.final`, in the numbers of the precision.
+        progress : callable, optional
+            Called with the number of steps taken, now and then.
 
         Returns
         -------
@@ -410,6 +419,7 @@ class Runner:
         """
         h = self.system.length(length)
         steps, every = whole_number(steps, "steps"), whole_number(every, "every")
+        check_callback(progress)
         q, v = self.system.beginning
         with self.level.working(), np.errstate(all="ignore"):
             if start is not None:
@@ -428,7 +438,7 @@ class Runner:
                 raise BadSystem(f"the places of {steps} steps do not fit into memory: record fewer by every=") from None
             take = _in_c if self.compiled and self.library else _in_numbers
             begin = time.process_time()
-            done, why = take(self, steps, every, state, unknowns, fixed, recorded)
+            done, why = take(self, steps, every, progress, state, unknowns, fixed, recorded)
             seconds = time.process_time() - begin
             if done < steps:
                 which = f"{self.system.name}, {self.method}: step {done} of {steps}"
@@ -677,8 +687,9 @@ def _text(kernels: Sequence[Kernel]) -> str:
 
 
 def _in_c(
-    runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, *arrays: np.ndarray
-) -> tuple[int, str]:
+    runner: Runner, steps: int, every: int, progress: Callable[[int], None], state: np.ndarray, unknowns: np.ndarray,
+    *arrays: np.ndarray,
+) -> tuple[int, str]:  # fmt: skip
     """Takes the steps in parts, so that they can be interrupted; returns the number taken, and why no more."""
     arrays = (state, unknowns, np.tile(unknowns, 2), *arrays)
     pointers = [array.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for array in arrays]
@@ -689,12 +700,13 @@ def _in_c(
         if (reached := int(run(*map(ctypes.c_int64, (done, end, every)), *pointers))) < end:
             return reached, UNSOLVED
         done = end
+        progress(done)
     return steps, ""
 
 
 def _in_numbers(
-    runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, fixed: np.ndarray,
-    recorded: np.ndarray,
+    runner: Runner, steps: int, every: int, progress: Callable[[int], None], state: np.ndarray, unknowns: np.ndarray,
+    fixed: np.ndarray, recorded: np.ndarray,
 ) -> tuple[int, str]:  # fmt: skip
     """The same steps in any numbers, in Python."""
     kind = Sets if isinstance(runner.level, Enclosure) else Steps
@@ -707,5 +719,6 @@ def _in_numbers(
             return i, str(error)
         if i % every == 0:
             recorded[i // every] = seen
+        progress(i + 1)
     state[:] = method.numbers(now)
     return steps, ""

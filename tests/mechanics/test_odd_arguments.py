@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from chapsym.mechanics import METHODS, Quaternion, Turned, certified, flag, measured, moved, verdicts, volume
+from chapsym.mechanics import METHODS, Quaternion, Runner, Turned, certified, flag, measured, moved, verdicts, volume
 from chapsym.mechanics.equations import agree, conserved, in_symbols, of_kane
 from chapsym.mechanics.system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
 
@@ -38,7 +38,8 @@ CALLS = {
     "volume": (volume, {"system": SLED}), "verdicts": (verdicts, {"system": SLED, "scheme": None}),
     "certified": (lambda **of: list(certified(**of)), {"system": SLED, "methods": ()}),
     "moved": (moved, {"system": SLED, "method": "dla", "steps": 2, "length": None, "every": 1, "precision": "double"}),
-    "measured": (measured, {"system": SLED, "method": "dla", "steps": 2, "length": None}),
+    "measured": (measured, {"system": SLED, "method": "dla", "steps": 2, "length": None, "progress": print}),
+    "march": (lambda **of: Runner(SLED, "dla").march(**of), {"steps": 2, "progress": print}),
     "loaded": (loaded, {"path": "none"}), "Quaternion": (Quaternion, {"name": "q"}),
     "Turned": (lambda turn: Turned(turn), {"turn": ("x", x)}),
     "an angle": (lambda angle: Turned(("x", angle)), {"angle": x}),

@@ -54,7 +54,9 @@ def outside(enclosed, digits):
 )
 def test_many_digits_are_near_those_of_float64_and_inside_of_enclosures(name, method):
     """Of float64 in C and in Python."""
-    digits = runner(name, method, Digits(30)).march(40, every=3)
+    counts = []
+    digits = runner(name, method, Digits(30)).march(40, every=3, progress=counts.append)
+    assert counts == [*range(1, 41)]
     in_python = Runner(example(name), method, False)
     for ready in (runner(name, method), in_python):
         found = ready.march(40, every=3)
