@@ -1,6 +1,8 @@
 """The plan: what it follows, its units of work, and that a cut run is the whole one."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -177,6 +179,13 @@ def test_an_output_is_added_by_one_record(members, monkeypatch):
     stopped = sweep.run_in_memory(planned(faster, Task(("spin",), 50, 5, 0.01))).spin.values
     assert np.isnan(stopped[0, 8:]).all()
     assert not np.isnan(stopped[1:]).any()
+
+
+def test_the_pages_list_each_output():
+    pages = Path(__file__).parents[2] / "docs" / "reference"
+    (row,) = re.findall(r"^\| `outputs` \| \| a list of: (.*); default", (pages / "scenes.md").read_text("utf-8"), re.M)
+    assert sorted(re.sub(r" \(.*?\)", "", row).split(", ")) == sorted(OUTPUTS)
+    assert {*OUTPUTS} <= {*re.findall(r"^\| `(\w+)` \|", (pages / "results.md").read_text("utf-8"), re.M)}
 
 
 def test_an_output_of_three_dimensions_is_refused_in_four(monkeypatch):
