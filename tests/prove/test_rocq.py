@@ -40,7 +40,9 @@ def test_every_statement_that_says_something_is_a_theorem(tmp_path):
     assert set(written.left_out) == {SAME, COUNT}
     assert written.left_out[COUNT] == sum(len(claim["counts"]) for claim in data)
     page = (ROOT / "docs" / "how-to" / "rocq.md").read_text(encoding="utf-8")
-    assert f"{written.theorems.total()} theorems of {written.claims} claims" in page
+    numbers = re.search(r"(\d+) theorems of (\d+) claims: (\d+) statements, (\d+) points .*\n.* (\d+) counter", page)
+    kinds = (written.theorems[name] for name in ("statements", "points", "counterexamples"))
+    assert [*map(int, numbers.groups())] == [written.theorems.total(), written.claims, *kinds]
     assert written.left_out[SAME] >= sum(one["left"] == one["right"] for one in statements)
     assert written.theorems["statements"] == len(statements) + written.left_out[COUNT] - written.left_out.total()
     assert written.theorems["counterexamples"] == sum(len(claim["counterexamples"]) for claim in data)

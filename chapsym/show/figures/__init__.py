@@ -28,7 +28,8 @@ SLIP = "slip"
 class Kind(NamedTuple):
     """A kind of figure: its function, and one for the reason why a result cannot be drawn, in a sentence, or None.
 
-    curve: whether it is a curve between the frames.  warns: whether it has a note if they are too far apart for this.
+    curve: whether it is a curve between the frames: of variables that `interpolated` has.  warns: whether it has a note
+    if they are too far apart for this.
     """
 
     draw: "Callable[[Dataset], Picture]"
