@@ -75,7 +75,7 @@ def judge(
     for run, one in pairs:
         step = "" if run.step is None else f", step {run.step:g} s"
         put(f"{run.file}{step}, against {case.name}{NONE if case.own else ''}:")
-        for line in lines(summary(one, case.time)):
+        for line in lines(summary(one, case.time), "" if body is None else " after the first row"):
             print(f"  {line}")
     for name, several in known.items():
         put(f"{name}: {sentence(several, 'm' if name == 'path' else 'degrees')}")
@@ -83,8 +83,8 @@ def judge(
         put(f"wrote {output}")
 
 
-def lines(summary: Data) -> list[str]:
-    """A line for each part."""
+def lines(summary: Data, since: str) -> list[str]:
+    """A line for each part; since: of the times, unless they are those of the table."""
     from chapsym.studies.judge import limit_of
 
     found = []
@@ -92,6 +92,7 @@ def lines(summary: Data) -> list[str]:
         after = ""
         if "limit" in part:
             limit = limit_of(name)
-            after = f"within {limit}" if part["departs"] is None else f"beyond {limit} from {part['departs']:g} s on"
+            late = part["departs"]
+            after = f"within {limit}" if late is None else f"beyond {limit} from {late:g} s{since} on"
         found.append(f"{name:9} at most {part['greatest']:<10.3g} {part['unit']:8} {after}".rstrip())
     return found

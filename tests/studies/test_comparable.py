@@ -1,13 +1,14 @@
 """No verdict on an engine where the file is written in another convention; a ball of one's own from the first row."""
 
 import csv
+import re
 from contextlib import nullcontext
 from itertools import product
 
 import numpy as np
 import pytest
 from budget import slow
-from commands import answer, refused
+from commands import answer, chapsym, refused
 
 from benchmarks.rolling.make import CASES, DATA
 from chapsym.studies.comparable import case_of_body, case_of_scene
@@ -198,6 +199,11 @@ def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, tmp_path, sai
     assert found["case"] == "robot"
     assert said[-1].endswith("%")
     assert found["results"][0]["departure"]["attitude"]["departs"] is None
+    leaving = later | {"x": rows["x"] + 4e-3 * (rows["time"] - rows["time"][0])}
+    assert re.search(
+        r"path .* beyond 0.001 m from 0\.\d+ s after the first row on",
+        chapsym("judge", write(tmp_path, leaving), "--body", BODY).stdout,
+    )
     slow = with_parts(rows, (*V, *W), [rows[x] * (0.5 if x in W else 1.0) for x in (*V, *W)])
     assert "its first row is not the start of a ball that rolls (velocity " in refused(
         "judge", write(tmp_path, slow), "--body", BODY
