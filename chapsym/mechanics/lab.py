@@ -54,7 +54,7 @@ class Cell:
         The drift over the same time in steps of half the length, if requested: an error of the method decreases by its
         order, an error of the model does not.
     order : float or None
-        The order by the errors of halved steps; None if rounding hides it.
+        The order of the position by the errors of halved steps; None if rounding hides it.
     returns : float or None
         The distance of the position from its start after some steps, reversed velocities, and as many steps: 0 up to
         rounding if the method is reversible by q, v -> q, -v.
