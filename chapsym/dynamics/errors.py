@@ -36,7 +36,7 @@ class Status(IntEnum):
     FOLDED : int
         The small-rotation branch folds before it reaches the momentum.
     NOT_CONVERGED : int
-        float64 cannot resolve the rotation: D is too large for this J, or the state is at a fold.
+        Rounding hides the rotation: the moments and D are too far apart, or the state is at a fold.
     UNREACHABLE : int
         No rotation of the ball has the momentum at this γ.
     NO_INERTIA : int
@@ -68,7 +68,7 @@ class Status(IntEnum):
 _SENTENCES = {
     Status.TAKEN: "the step was taken",
     Status.FOLDED: "the small-rotation branch folds before it reaches this momentum; take a shorter time step",
-    Status.NOT_CONVERGED: "float64 cannot resolve the rotation: D is too large for this J, or the state is at a fold",
+    Status.NOT_CONVERGED: "rounding hides the rotation: the moments and D are too far apart, or the state is at a fold",
     Status.UNREACHABLE: "no rotation of this ball has this momentum at this gamma; take a shorter time step",
     Status.NO_INERTIA: "the ball has no inertia about the vertical at this gamma (all its mass lies on that axis)",
 }

@@ -100,6 +100,8 @@ def test_a_ball_with_no_inertia_in_a_plane_is_told():
         step_n(ball, 0.01 * K4, (0, 0, 0.6, 0.8))
     assert caught.value.status is Status.NO_INERTIA
     assert step_n(ball, 0.01 * K4, (0.6, 0, 0, 0.8)).status == Status.TAKEN
+    with pytest.raises(StepNotTaken, match="rounding hides the rotation: the moments and D are too far apart"):
+        step_n(BallN((1, 1, 1e17, 1), 1), 0.01 * K4, (0, 0, 0, 1))  # there is inertia, below the rounding of 1e17
 
 
 def test_a_batch_goes_on_for_the_others():

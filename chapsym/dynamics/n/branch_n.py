@@ -39,8 +39,9 @@ def small_rotation(K: Floats, gamma: Floats, J: Floats, D: Floats) -> tuple[Floa
     k = so_n.coordinates(K)
     status = np.full(len(D), Status.NOT_CONVERGED, dtype=np.int64)
     E, t, step = np.zeros_like(K), np.zeros(len(D)), np.ones(len(D))
-    status[_without_inertia(gamma, J, D)] = Status.NO_INERTIA
-    going = np.flatnonzero(status != Status.NO_INERTIA)
+    lost = _without_inertia(gamma, J, D)
+    status[lost & (((J == 0) & (gamma == 0)).sum(axis=-1) > 1)] = Status.NO_INERTIA  # in others it is below a rounding
+    going = np.flatnonzero(~lost)
     for _ in range(MOST_STEPS):
         if not going.size:
             break
@@ -101,7 +102,7 @@ def _scaled(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats, Floats, Fl
 
 
 def _without_inertia(gamma: Floats, J: Floats, D: Floats) -> np.ndarray:
-    """Whether a rotation has no inertia about the contact point; needs two vanishing moments in J."""
+    """Whether a rotation has no inertia about the contact point, up to rounding; needs two such moments in J."""
     found = np.sort(J, axis=-1)[..., :2].sum(axis=-1) <= SINGULAR
     if found.any():
         start = so_n.jacobian(np.zeros((int(found.sum()), *2 * J.shape[-1:])), gamma[found], J[found], D[found])
