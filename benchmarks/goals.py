@@ -98,9 +98,10 @@ def _compare(ratios: dict[tuple[str, str], list[float]], name: str, sides: Runs,
 def ensemble(balls: int, rounds: int, on_round: Say, missing: dict[str, str]) -> list[Reached]:
     """Different balls to the same worst error at the end: `roll`, `extrapolate` and heyoka.py, 8 at once."""
     setting = f"{balls} different balls, t = {END:g}"
-    on_round(f"{setting}: what is true")
-    many = problems.drawn(balls, SEED, END)
-    truths = [problems.truth_of(p) for p in many]
+    many, truths = problems.drawn(balls, SEED, END), []
+    for i, problem in enumerate(many):
+        on_round(f"{setting}: what is true, {i + 1} of {balls}")
+        truths.append(problems.truth_of(problem))
     truth = [np.stack([x[i][-1] for x in truths]) for i in range(3)]  # type: ignore[index]
     J, D, radius = (np.stack([getattr(p.ball, name) for p in many]) for name in ("mass_tensor", "D", "radius"))
     omega, gamma, K = (np.stack([getattr(p, name) for p in many]) for name in ("omega", "gamma", "momentum"))
