@@ -9,7 +9,7 @@ from types import ModuleType
 
 import benchmarks
 from chapsym.cli import measured
-from chapsym.cli.output import check_known, console_for, fail, print_json, quiet, say
+from chapsym.cli.output import SELDOM, check_known, console_for, fail, print_json, telling
 from chapsym.files import Data
 from chapsym.numbers import in_words
 from chapsym.studies.checkout import machine, save_figures
@@ -37,16 +37,15 @@ def measure(
     results: Data = {}
     for name in wanted:
         try:
-            results[name] = study.run(name, quick, say, **own)
+            with telling(SELDOM) as tell:
+                results[name] = study.run(name, quick, tell, **own)
         except NotComparable as error:
-            quiet()
             fail(f"{study.NAME} {name}: {error}", 1)
         if output is not None and page:  # after each section: what is measured is kept, whatever comes then
             measured.write(output, study.TITLE, study.ABOUT, [*_goals(results), *_tables(results)], _shown)
     if output is not None and not page:
         drawn = {name: results[name] for name in study.DRAWN if name in results}
         save_figures(study.__name__, {output.name: "figure:draw"}, drawn, output.parent)
-    quiet()
     found = plain(results, quick)
     if as_json:
         print_json(found)
