@@ -31,6 +31,8 @@ from .passes import letters
 
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 EDIT = "Written by `chapsym codegen`: do not edit; change the derivation and generate again."
+#: What is in the head of each file with a text.
+HEAD = b"ritten by `chapsym codegen`"
 #: The values of a kernel by the derivation, and a function that gives those of a text of its module.
 Computed = tuple[list[str], Callable[[str], list[str]]]
 
@@ -204,23 +206,31 @@ class Package:
         """Writes every file into `place` and removes files of former kernels; returns the names written.
 
         Raises ValueError, before anything is written, if a fingerprint is missing or contradicted and not named in
-        `trust` ("all" names every kernel), or if the folder belongs to another package, whose files would be lost.  The
-        first fingerprints of a folder are trusted.
+        `trust` ("all" names every kernel), or if the folder has what no such command has written.  The first
+        fingerprints of a folder are trusted.
         """
         self.check_names(trust)
         problems = {} if not (place / FINGERPRINTS).is_file() and not self.is_ours else self.distrusted(place)
         if left := [problem for name, problem in problems.items() if not {name, "all"} & set(trust)]:
             raise ValueError("; ".join(left))
-        there = [] if (place / MANIFEST).exists() or not place.is_dir() else [p.name for p in place.iterdir()]
-        if strange := sorted(set(there) - self.files.keys() - {FINGERPRINTS, "__pycache__"}):
+        other = [] if not place.is_dir() else [p for p in place.iterdir() if p.name not in {*self.files, FINGERPRINTS}]
+        if strange := sorted(path.name for path in other if path.name != "__pycache__" and not self._is_former(path)):
             raise ValueError(f"{place} has what chapsym codegen has not written, such as {strange[0]}: move it")
         files = {**self.files, FINGERPRINTS: _one_a_line(dict(sorted(self.fingerprints.items()))) + "\n"}
         with alone(place.parent):  # else another command takes its files in the making for former ones
             write(place, files)
             for path in place.iterdir():
-                if path.is_file() and path.name not in files:
+                if path.name not in files and self._is_former(path):
                     path.unlink()
         return sorted(files)
+
+    def _is_former(self, path: Path) -> bool:
+        """Whether a file is of a former kernel, by its head, or was left by a command that was killed."""
+        if not path.is_file():
+            return False
+        with path.open("rb") as stream:
+            headed = path.suffix in (".py", ".c", ".h") and HEAD in stream.read(400)
+        return headed or any(path.name.startswith(f".{name}.") for name in (*self.files, FINGERPRINTS))
 
 
 @cache

@@ -88,6 +88,11 @@ def test_missing_and_extra_files_are_named(copy):
     (copy / "rotate.py").unlink()
     (copy / "stray.py").write_text("", encoding="utf-8")
     assert build.ours().check(copy) == ["rotate.py is missing", "stray.py is extra"]
+    with pytest.raises(ValueError, match=r"has not written, such as stray\.py: move it"):
+        build.ours().generate(copy)
+    assert not (copy / "rotate.py").exists()
+    (copy / "stray.py").rename(copy / ".energy.py.half")  # as a command that is killed leaves
+    (copy / "former.py").write_bytes((copy / "energy.py").read_bytes())
     build.ours().generate(copy)
     assert build.ours().check(copy) == []
 
@@ -97,10 +102,10 @@ def test_of_two_that_generate_at_once_none_takes_the_files_of_the_other_away(cop
 
     def first(place, texts):
         if not other.ident:
-            (place / ".in the making").touch()
+            (place / ".energy.py.making").touch()
             other.start()
             other.join(1.0)  # it waits for the end of the first
-            assert (place / ".in the making").exists()
+            assert (place / ".energy.py.making").exists()
         write(place, texts)
 
     monkeypatch.setattr(build, "write", first)
