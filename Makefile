@@ -29,7 +29,7 @@ verify: $(VENV)/.installed
 test: $(VENV)/.installed
 	$(BIN)/python -m pytest -n auto
 
-# Random seeds, ten times the examples of each property, the slow cells of the extremes, slips judged by more claims, more processes, scenes and states.
+# Random seeds, many more examples of each property, the slow cells of the extremes, slips judged by more claims, more processes, scenes and states.
 thorough: $(VENV)/.installed
 	$(BIN)/python -m pytest -n auto --thorough
 

@@ -203,8 +203,10 @@ class Proof:
                 self._contradict(statement)
 
     def corrected(self, text: str, *statements: Statement) -> None:
-        """Adds the smallest correction of the printed statement, and the statements that prove it."""
-        self.corrected_text = str(text)
+        """Adds the smallest correction of the printed statement, its formula, and the statements that prove it."""
+        if not isinstance(text, str):
+            raise TypeError("p.corrected takes the corrected formula, a text, and then the statements that prove it")
+        self.corrected_text = text
         self._corrected += [(s, self._decide(s, "corrected")) for s in statements]
 
     def under(self, condition: str, *statements: Statement) -> None:

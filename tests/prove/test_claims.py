@@ -164,6 +164,7 @@ def test_what_is_no_statement_is_told_in_one_line(said):
         (lambda: Equation("e", [x, y], [x], CIRCLE), "2 and 1 entries"),
         (lambda: Equation("e", [], [], CIRCLE), "0 and 0 entries"),
         (lambda: equation(sp.sqrt(2) * x, x).at(ON_CIRCLE.evaluate), "not a rational number"),
+        (lambda: Proof().corrected(equation(x, x)), "takes the corrected formula, a text"),
         (lambda: Proof().slips("big"), "a slip is one of serious, typo"),
         (lambda: Proof(uses=("2.1",)).slips("typo", "9.9"), r"9\.9 is not in uses"),
     ],

@@ -199,7 +199,6 @@ def test_an_output_of_three_dimensions_is_refused_in_four(monkeypatch):
     ("outputs", "sentence"),
     [
         (("speed",), "'speed' is no output; choose of momentum, gamma"),
-        ((), "outputs is empty"),
         (("omega",), r"omega needs run\.time_step"),
         (("contact",), "needs the radius"),
     ],

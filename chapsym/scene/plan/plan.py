@@ -121,8 +121,6 @@ def plan_from(text: str) -> Plan:
 
 def planned(members: Members, task: Task) -> Plan:
     """The plan with the cheapest model; raises BadInput, with the reasons, if no model has the outputs."""
-    if not task.outputs:
-        raise BadInput(f"run.outputs is empty: choose of {', '.join(OUTPUTS)}")
     top = isinstance(members.ball, Ball) and not members.ball.D.any()
     _check_outputs(members, task)
     needed = columns_for(task.outputs, top)
