@@ -118,6 +118,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["extremes", "-o", "/nowhere/page.html"], "the folder /nowhere does not exist"),
         (["extremes", "nonsense"], "there is no group 'nonsense'"),
         (["bench", "nonsense"], "there is no section 'nonsense'; there are goals, trajectory, batch, steps"),
+        (["bench", *STEP[1:3], "--D", "3", "--momentum", "0,0,0"], "--momentum 0,0,0: a ball at rest takes no time"),
         (["bench", "long", "-o", "x.txt"], "'x.txt': a figure must end in .svg, .png, .pdf"),
         (["bench", "memory", "-o", "x.svg"], "only work-precision and long have a figure"),
         (["bench", "long", "-o", "absent/x.svg"], "the folder absent does not exist"),

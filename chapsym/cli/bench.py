@@ -86,6 +86,8 @@ def bench(
             fail("--momentum K1,K2,K3 goes with a ball of your own", 2)
         J, D = ball_from(body)
         K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
+        if not any(K):
+            fail(f"--momentum {momentum}: a ball at rest takes no time to step; give another", 2)
         sections = sections or ["trajectory"]
         if sections != ["trajectory"]:
             fail("a ball of your own goes with the section trajectory alone", 2)

@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -227,5 +229,8 @@ def test_a_csv_goes_to_standard_output_and_nothing_else_does(tmp_path):
     done = chapsym("run", scene, "-o", "-")
     assert (done.returncode, done.stdout) == (0, output.read_text(encoding="utf-8"))
     assert "21 frames in standard output" in done.stderr
+    closed = ["bash", "-c", f"{sys.executable} -m chapsym run {scene} -o - >&-"]
+    done = subprocess.run(closed, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (2, "chapsym: -: standard output is closed; name a file\n")
     assert "choose one" in refused("run", scene, "-o", "-", "--json")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["run.csv", "scene.toml"]

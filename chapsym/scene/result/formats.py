@@ -8,6 +8,7 @@ import csv
 import json
 import math
 import mmap
+import os
 import re
 import sys
 import warnings
@@ -62,6 +63,8 @@ def check_destination(path: Path) -> None:
     """Raises SceneError, before anything is computed, if a result cannot be written to `path`."""
     *some, last = _READERS
     if path == STDOUT:
+        if sys.stdout is None or getattr(sys.stdout, "name", "") == os.devnull:  # the command puts it in its place
+            raise SceneError("-: standard output is closed; name a file")
         return
     if path.suffix not in _READERS:
         raise SceneError(f"{str(path)!r}: the output must end in {', '.join(some)} or {last}, or be - for a CSV")
