@@ -9,7 +9,7 @@ from types import ModuleType
 
 from chapsym import extras, files
 from chapsym.cli import measured
-from chapsym.cli.output import check_known, console_for, fail, print_json, progress_bar
+from chapsym.cli.output import SELDOM, check_known, console_for, fail, print_json, progress_bar, telling
 from chapsym.studies.checkout import machine, save_figures
 
 from . import units
@@ -71,8 +71,10 @@ def study(name: str, quick: bool, output: Path | None, scheduler: str | None, as
     module = import_module(f".{name}", __package__)
     folder = None if output is None else files.made(output)
     kept = None if folder is None else folder / f"{name}.jsonl"
-    with progress_bar(name, 0) as shown:
-        run = partial(units.run_units, path=kept, scheduler=scheduler, report=shown)
+    with telling(SELDOM) as tell:  # units differ too much for an estimate of the time that is left
+        run = partial(
+            units.run_units, path=kept, scheduler=scheduler, report=lambda n, of: tell(f"{name}: {n} of {of}")
+        )
         found = module.study(quick, run)
     written = list[Path]()
     if folder is not None:

@@ -333,6 +333,7 @@ ABOUT_STEP = """
    mass_tensor: J, the second moments of mass; D: mass times radius squared.  momentum: the discrete momentum,
    epsilon K, in the units of J; gamma: the unit vertical, upwards.  rotation: receives the unit quaternion of the step,
    scalar first.  reach: receives the fraction of the momentum that the branch attains, 1 for a step that is taken.
+   The numbers are not checked: mass_tensor and D must be at least 0, gamma of length 1, all of them finite.
    Returns 0 if the step was taken; 1 at a fold, 2 where the continuation did not converge, 4 for a ball without
    inertia: then momentum, gamma and rotation are as before. */
 """

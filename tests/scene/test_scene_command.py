@@ -180,6 +180,10 @@ ACCURATE = "[ball]\ninertia = [0.006, 0.0071, 0.0089]\nD = 0.02\n[start]\nomega 
 def test_an_accuracy_that_cannot_be_had_or_needs_the_radius_is_one_sentence_before_anything_runs(tmp_path):
     (tmp_path / "ball.toml").write_text(f"{ACCURATE}accuracy = 1e-30\n")
     assert "an accuracy of 1e-30 after 1 s cannot be had" in refused("scene", "check", tmp_path / "ball.toml")
+    fast = ACCURATE.replace("D = 0.02", "mass = 2\nradius = 0.1").replace("1, 2, 3", "1e3, -2e3, 1e3")
+    (tmp_path / "ball.toml").write_text(f'{fast}accuracy = 1e-11\ncontact = true\nof = "state"\n')
+    words = refused("run", tmp_path / "ball.toml", "-o", tmp_path / "out.npz")
+    assert words.endswith('or for less time; or have more digits by of = "contact"')
     (tmp_path / "ball.toml").write_text(f'{ACCURATE}accuracy = 1e-8\nof = "contact"\n')
     words = refused("run", tmp_path / "ball.toml", "-o", tmp_path / "out.zarr")
     assert words == "the contact point needs the radius: give the ball its mass and radius"

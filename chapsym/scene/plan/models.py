@@ -494,7 +494,12 @@ class Moving(Model):
     ) -> tuple[Columns, State]:
         """All frames; the momentum is K."""
         problem = self._problem(members, task, needed)
-        found = moved(problem, lambda balls: progress(int(balls * task.steps)))
+        try:
+            found = moved(problem, lambda balls: progress(int(balls * task.steps)))
+        except BadInput as error:
+            if len(members) == 1 and task.chosen and "contact" in needed and task.of == "state":
+                raise BadInput(f'{error}; or have more digits by of = "contact"') from None
+            raise
         columns = {
             "momentum": found.angular_momentum, "gamma": found.gamma, "attitude": found.attitude,
             "contact": found.contact,
