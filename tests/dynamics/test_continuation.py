@@ -106,6 +106,7 @@ def test_tiny_and_large_momenta():
     here = fold(BALL, K, GAMMA).reach
     assert fold(BALL, 1e-290 * K, GAMMA).reach == pytest.approx(1e290 * here, rel=1e-14)
     assert fold(BALL, 1e290 * K, GAMMA).reach == pytest.approx(1e-290 * here, rel=1e-14)
+    assert fold(BALL, 1e-310 * K, GAMMA).reach == np.inf
     for size in (1e3, 1e300):
         assert follow(BALL, [0 * K, size * K], GAMMA).reach * size == pytest.approx(here)
     along = fold(Ball((1, 2, 4), 1e6), GAMMA, GAMMA)  # the momentum about the vertical does not grow with D

@@ -189,7 +189,8 @@ def fold(
 ) -> Fold:
     """The fold of a branch along t𝒦: the largest t to which the branch can be continued, and the rotation there.
 
-    There always is a fold, as |𝒦| ≤ 2Λmax for every rotation; if `follow` does not converge before it, reach is NaN.
+    There always is a fold, as |𝒦| ≤ 2Λmax for every rotation; if `follow` does not converge before it, reach is NaN.  A
+    reach beyond the range of float64 is inf.
 
     Parameters
     ----------
