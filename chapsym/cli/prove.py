@@ -44,6 +44,7 @@ def prove(
     """
     from chapsym.checker import file_name
     from chapsym.prove import unproved
+    from chapsym.prove.rocq import former, write
     from chapsym.prove.runner import explain as argument
 
     register = register_from(own)
@@ -58,13 +59,13 @@ def prove(
         return
     for place in filter(None, (certificates, rocq)):
         files.made(place)
+    if rocq:
+        former(rocq)  # refuses a folder with other files
     everything = claims if certificates or rocq else all_claims(register)
     with TemporaryDirectory() as spare:
         folder = certificates or (Path(spare) if rocq else None)
         records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, folder, register)
         if rocq and folder:
-            from chapsym.prove.rocq import write
-
             kept = [file for record in records if (file := folder / file_name(record["id"])).exists()]
             written = write((json.loads(file.read_text(encoding="utf-8")) for file in kept), rocq)
             counts = f"claims: {written.claims}, theorems: {written.theorems.total()}"

@@ -11,7 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from commands import chapsym
+from commands import chapsym, refused
 
 from chapsym import proofs
 from chapsym.checker import file_name
@@ -116,6 +116,18 @@ def test_the_command_writes_the_theorems_of_a_claim(tmp_path):
         {path.name: path.read_bytes() for path in (tmp_path / folder).iterdir()} for folder in ("made", "kept")
     )
     assert made == kept
+
+
+@pytest.mark.parametrize("name", ["Makefile", "claim_mine.v"])
+def test_a_folder_with_other_files_is_refused_and_keeps_them(tmp_path, name):
+    write([certificate("5.11")], tmp_path)
+    (tmp_path / "mine.v").write_text("mine", encoding="utf-8")
+    write([certificate("4.7")], tmp_path)
+    (tmp_path / name).write_text("mine", encoding="utf-8")
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    assert not any("5_d11" in name for name in before)
+    assert f"{name}: it is not from chapsym prove --rocq" in refused("prove", "5.11", "--rocq", tmp_path)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
 def test_without_rocq_one_sentence_says_what_to_install(tmp_path):

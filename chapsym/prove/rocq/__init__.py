@@ -5,6 +5,6 @@ ring in which the denominators of the statement are units.  Theorems with a poin
 and that a printed statement is false.  Nothing here has to be trusted: Rocq judges the text.
 """
 
-from .files import Written, write
+from .files import Written, former, write
 
-__all__ = ["Written", "write"]
+__all__ = ["Written", "former", "write"]

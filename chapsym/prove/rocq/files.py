@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from errno import EEXIST
 from pathlib import Path
 
 from .claims import Claim
@@ -49,11 +50,21 @@ def _put(path: Path, text: str) -> None:
     part.replace(path)
 
 
+def former(folder: Path) -> list[Path]:
+    """The files of claims that `write` has written to a folder; raises FileExistsError for others of their names."""
+    files = sorted(folder.glob("claim_*.v"))
+    for path, head in ((folder / "Makefile", MAKEFILE[:20]), *((path, "(* Claim ") for path in files)):
+        if path.exists() and not path.read_bytes().startswith(head.encode()):
+            raise FileExistsError(EEXIST, "it is not from chapsym prove --rocq: name another folder", str(path))
+    return files
+
+
 def write(certificates: Iterable[Data], folder: Path) -> Written:
-    """Writes the files of accepted certificates to a folder; raises OSError if this fails."""
+    """Writes the files of accepted certificates to a folder; raises OSError if this fails, or as `former` does."""
     folder.mkdir(parents=True, exist_ok=True)
-    for old in (*folder.glob("claim_*"), *folder.glob("axioms_*")):
-        old.unlink()
+    for stem in (*(path.stem for path in former(folder)), *(f"axioms_{library}" for library in HEADS)):
+        for old in folder.glob(f"{stem}.*"):
+            old.unlink()
     written = Written()
     for data in certificates:
         claim = Claim(data)
