@@ -12,6 +12,7 @@ import warnings
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib.resources import files
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -477,9 +478,10 @@ def test_fresh_replaces_a_result_of_chapsym_only(whole, tmp_path, path):
     other = tmp_path / "photos.zarr"
     other.mkdir()
     (other / "holiday.jpg").write_bytes(b"x")
-    for fresh in (False, True):
-        with pytest.raises(SceneError, match=r"photos\.zarr is there, but it is no result of chapsym"):
-            sweep.run_to_store(plan(), other, fresh=fresh)
+    (tmp_path / "film.zarr").write_bytes(b"x")
+    for fresh, place in product((False, True), (other, tmp_path / "film.zarr")):
+        with pytest.raises(SceneError, match=r"zarr is there, but it is no result of chapsym; choose another name$"):
+            sweep.run_to_store(plan(), place, fresh=fresh)
     assert (other / "holiday.jpg").read_bytes() == b"x"
 
 

@@ -175,7 +175,8 @@ def attributes(path: Path) -> Data:
             return load(path).attrs
         found = read_object(path / "zarr.json")["attributes"]
     except (SceneError, OSError, *DAMAGED):
-        layout = "choose another name" + (", or replace it with --fresh" if path.is_file() else "")
+        replaced = path.is_file() and path.suffix != ".zarr"
+        layout = "choose another name" + (", or replace it with --fresh" if replaced else "")
         raise SceneError(f"{path} is there, but it is no result of chapsym; {layout}") from None
     return found if isinstance(found, dict) else {}
 
