@@ -11,7 +11,17 @@ from budget import slow
 
 import chapsym
 from benchmarks.trade.frontiers import continuous
-from chapsym import BadInput, Ball, Curve, exact_top, increment, rotation_number, step_vertical, trajectory
+from chapsym import (
+    BadInput,
+    Ball,
+    Curve,
+    TopMotion,
+    exact_top,
+    increment,
+    rotation_number,
+    step_vertical,
+    trajectory,
+)  # fmt: skip
 from chapsym.dynamics import kernels
 from chapsym.dynamics.closed import elliptic
 from chapsym.dynamics.closed.elliptic import height_of
@@ -216,3 +226,23 @@ def test_a_curve_beyond_float64_is_refused():
         warnings.simplefilter("error")
         with pytest.raises(BadInput, match="too far apart"):
             Curve.through(Ball((0.0555, 2.0, 3.68e261), 0.0), (0.6, 0, 0.8))
+
+
+@pytest.mark.parametrize(
+    ("J", "D", "gamma"),
+    [((1, 2, 4), 0, (3e-8, 1, 1e-7)), ((1, 2, 4), 0, (3e-13, 1, 1e-12)), ((1, 1, 4), 1, (0.6, 0.8, 1e-9))],
+)
+def test_equal_increments_are_the_rotation_number_near_the_separatrix_too(J, D, gamma):
+    ball, gamma = Ball(J, D), np.array(gamma) / np.linalg.norm(gamma)
+    exact = TopMotion.vertical(ball, 0.6, gamma).rotation_number
+    assert rotation_number(ball, 0.6, gamma) == pytest.approx(exact, rel=1e-14)
+
+
+def test_the_rotation_number_of_the_shortest_steps_is_that_of_the_rate():
+    ball, gamma = Ball((1, 2, 4), 3), (0.48, 0.6, 0.64)
+    for height in (1e-12, 1e-20, 1e-300):
+        assert rotation_number(ball, height, gamma) / height == pytest.approx(
+            1e6 * rotation_number(ball, 1e-6, gamma), rel=1e-10
+        )
+    with pytest.raises(BadInput, match="too near the separatrix for float64"):
+        rotation_number(Ball((1, 2, 4), 1), 0.6, np.array((3e-8, 1, 1e-7)) / np.linalg.norm((3e-8, 1, 1e-7)))

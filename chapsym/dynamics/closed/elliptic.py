@@ -116,7 +116,7 @@ def carlson(x: Floats, y: Floats, z: Floats) -> Floats:
 
 
 #: The largest accepted distance from the curve of a γ for `argument`; near the separatrix roundings of a run grow 1/k'
-#: times, and are accepted up to 1/k' = 10⁶.
+#: times, and are accepted up to 1/k' = 10⁶: beyond, they lead from curve to curve, and to the other side of it.
 ON_CURVE, NEAREST = 1e-9, 1e-6
 MOST_CORRECTIONS = 60
 #: The relative size of the last correction of the increment, since Newton's iteration squares it.

@@ -20,10 +20,12 @@ from ..loops.records import Steps
 from ..map import MOST_STEPS, whole_number
 from ..results import Step, finished
 from ..shown import Brief
-from .elliptic import Curve, increment
+from .elliptic import NEAREST, Curve, increment
 
 #: The number of turns over which the rotation number is averaged, and the least and the largest number of steps.
 TURNS, LEAST, MOST = 100, 2**11, 2**18
+#: The relative difference of increments that are the same up to rounding.
+SAME = 2.0**-50
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -237,8 +239,9 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     """The mean number of turns around the curve of γ per step of G_h with 𝒦 = hγ; negative for decreasing u.
 
     The mean over infinitely many steps is computed as a weighted Birkhoff average (Das and Yorke) over some hundred
-    turns, with weights exp(-1/t(1-t)).  Its error falls faster than any power of their number: to about 1e-12 turns for
-    a curve that is not near the separatrix.  For D = 0 every increment is the same, and one is returned.
+    turns, with weights exp(-1/t(1-t)).  Its error falls faster than any power of their number, to that of rounding,
+    about 1e-14 + 1e-18/k'² turns as measured: near the separatrix, k' -> 0, roundings lead from curve to curve.  For
+    D = 0, for two equal J and for the shortest steps every increment is the same, and one is returned.
 
     Parameters
     ----------
@@ -257,7 +260,7 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     Raises
     ------
     BadInput
-        For a batch, a γ that the map fixes and a curve on the separatrix.
+        For a batch, a γ that the map fixes, a curve on the separatrix, and one with k' < 1e-6 if increments differ.
     StepNotTaken
         As `step_vertical` does.
 
@@ -273,7 +276,14 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
         raise BadInput("on the separatrix there is no turn, so no rotation number")
     start = float(curve.argument(gamma))
     step_vertical(ball, height, gamma)  # raises if there is no step
-    turn = abs(float(increment(curve, height, start))) / curve.period
+    first = float(increment(curve, height, start)) / curve.period
+    others = increment(curve, height, start + curve.period * np.arange(1, 8) / 8) / curve.period
+    same = (np.abs(others - first) <= SAME * abs(first)).all()
+    if float(ball.D) == 0.0 or len(set(ball.mass_tensor.tolist())) < 3 or same:
+        return first
+    if curve.complement < NEAREST:
+        raise BadInput("the curve is too near the separatrix for float64: roundings lead from curve to curve")
+    turn = abs(first)
     steps = LEAST if turn * LEAST >= TURNS else min(int(TURNS / turn), MOST) if turn * MOST > TURNS else MOST
     u = phases(curve, height, trajectory_vertical(ball, height, gamma, steps).gamma)
     t = np.arange(1, steps + 1) / (steps + 1)

@@ -15,6 +15,7 @@ from chapsym.accuracy.motion import FINEST, PARTS, Problem, moved, nominal
 from chapsym.dynamics import BadInput, Ball, BallN, Curve, Status, StepNotTaken, TopMotion
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.closed import top
+from chapsym.dynamics.closed.elliptic import NEAREST
 from chapsym.dynamics.closed.vertical import VerticalTrajectory
 from chapsym.dynamics.outputs import BOUND, LOW, whose
 from chapsym.dynamics.results import put_at
@@ -33,8 +34,6 @@ FOLLOWED = ("momentum", "gamma", "attitude", "contact")
 BATCH = 16
 #: The largest relative |𝒦 - hγ|: 𝒦 was rounded, and its motion stays this near to that with 𝒦 = hγ.
 VERTICAL = 4 * np.finfo(np.float64).eps
-#: For k' below this, near the separatrix, roundings lead from curve to curve, and to the other side of it.
-NEAREST = 1e-6
 #: The least k' of a top: γ and the attitude lose up to 1/k' ulps, at most three digits.
 NEAREST_TOP = 1e-3
 
