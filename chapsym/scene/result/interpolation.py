@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 #: The interpolated variables; energy, integrals and phase are known only at the frames.
 FOLLOWED = ("momentum", "gamma", "omega", "attitude", "contact")
+#: The attributes on errors at the frames.
+ERRORS = ("accuracy", "accuracy_of", "discretisation")
 #: The variables of K, which are not multiplied by the step.
 RATE = "kg m2 s-1"
 
@@ -25,8 +27,8 @@ def interpolated(run: Any, times: ArrayLike) -> Any:
     """The states of a run at any times between its frames, as the dense output of `solve_ivp`.
 
     𝒦, γ, ω, attitude and contact are interpolated as by `Trajectory.at`, with order 6 in the time between frames;
-    variables that are known only at the frames are omitted.  The result must have γ or the attitude, and 𝒦 or ω.  The
-    contact point is omitted if 𝒦 is vertical and there is no attitude.
+    variables that are known only at the frames are omitted, as are estimates of their errors.  The result must have γ
+    or the attitude, and 𝒦 or ω.  The contact point is omitted if 𝒦 is vertical and there is no attitude.
 
     Parameters
     ----------
@@ -69,7 +71,10 @@ def interpolated(run: Any, times: ArrayLike) -> Any:
         "omega": from_principal(axes, found.omega), "contact": found.contact,
         "attitude": None if found.attitude is None else attitude_from_principal(axes, found.attitude),
     }  # fmt: skip
-    kept = dataset.drop_vars([name for name, one in dataset.variables.items() if "frame" in one.dims])
+    kept = dataset.drop_vars(
+        [name for name, one in dataset.variables.items() if "frame" in one.dims or name == "error"]
+    )
+    kept.attrs = {name: one for name, one in kept.attrs.items() if name not in ERRORS}
     for name in FOLLOWED:
         if name in dataset and values[name] is not None:
             dims = ("ball", "frame", *(dim for dim in dataset[name].dims if dim not in ("ball", "frame")))
