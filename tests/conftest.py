@@ -55,6 +55,7 @@ def pytest_collection_modifyitems(config, items):
 def pytest_collection_finish(session):
     """What is imported and collected stays: the collector of garbage need not go through it again and again."""
     gc.set_threshold(100_000, 50, 100)
+    gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter, config):

@@ -5,21 +5,19 @@ import hashlib
 import json
 import re
 import shutil
+from functools import cache
 from pathlib import Path
 
 import pytest
+from committed import register
 
-from chapsym.checker import Rejected, read
+from chapsym.checker import Rejected
 from chapsym.checker import kernels as binding
 from chapsym.codegen import build, left, right
 from chapsym.derive.three import D, q0
 from chapsym.proofs.kernels import COLLECTED, KERNELS
 
 ROOT = Path(build.__file__).parents[2]
-CERTIFICATES = {
-    f"{data['claim']} {data['digest']}": data
-    for data in map(read, sorted((ROOT / "proofs/certificates/register").glob("*.json")))
-}
 ROWS = json.loads((build.folder() / build.MANIFEST).read_text(encoding="utf-8"))["kernels"]
 every = pytest.mark.parametrize("name", [kernel.name for kernel in KERNELS])
 
@@ -28,15 +26,20 @@ def text_of(name):
     return (build.folder() / f"{name}.py").read_text(encoding="utf-8")
 
 
-def judge(name, text, row=None, certificates=CERTIFICATES):
+@cache
+def certificates():
+    """Those of the register, by the names of their verdicts."""
+    return {f"{data['claim']} {data['digest']}": data for data in register().values()}
+
+
+def judge(name, text, row=None, decided=None):
     """With the hash of the text that is given: what is compared is what it computes."""
-    return binding.check(
-        {**(row or ROWS[name]), "text_sha256": hashlib.sha256(text.encode()).hexdigest()}, text, certificates, name
-    )
+    row = {**(row or ROWS[name]), "text_sha256": hashlib.sha256(text.encode()).hexdigest()}
+    return binding.check(row, text, certificates() if decided is None else decided, name)
 
 
 def test_all_kernels_compute_what_the_committed_certificates_decided():
-    found = binding.check_folder(build.folder(), CERTIFICATES)
+    found = binding.check_folder(build.folder(), certificates())
     assert len(found) == len(KERNELS)
     assert [one for one in found if not one["accepted"]] == []
 
@@ -72,7 +75,7 @@ def test_a_sign_turned_in_a_derivation_is_refused(kernel):
 
 def test_a_text_that_is_not_that_of_the_manifest_is_refused():
     with pytest.raises(Rejected, match="a text with another hash"):
-        binding.check(ROWS["compose"], text_of("compose") + "\n", CERTIFICATES, "compose")
+        binding.check(ROWS["compose"], text_of("compose") + "\n", certificates(), "compose")
 
 
 @pytest.mark.parametrize(
@@ -96,12 +99,12 @@ def test_what_carries_no_kernel_is_refused(carrier, said):
 
 
 def digest(id):
-    return next(data["digest"] for data in CERTIFICATES.values() if data["claim"] == id)
+    return next(data["digest"] for data in certificates().values() if data["claim"] == id)
 
 
 def test_an_open_claim_carries_nothing():
     with pytest.raises(Rejected, match=r"a certificate of claim 5\.2 that is not accepted among these files"):
-        judge("momentum", text_of("momentum"), certificates={})
+        judge("momentum", text_of("momentum"), decided={})
 
 
 TEXT = '"""Solved."""\n\n\ndef solved(K1, K2, g1, g2):\n    """x."""\n    det = g1 * g1 + g2 * g2\n    return {}\n'
@@ -213,7 +216,7 @@ def test_what_python_imports_in_its_place_is_refused(tmp_path):
     shutil.copytree(build.folder(), folder)
     (folder / "energy").mkdir()
     (folder / "rotation.cpython-311.so").touch()
-    found = [one for one in binding.check_folder(folder, CERTIFICATES) if not one["accepted"]]
+    found = [one for one in binding.check_folder(folder, certificates()) if not one["accepted"]]
     assert [one["reason"] for one in found] == [
         "rotation lies with rotation.cpython-311.so, which Python would import in its place",
         "energy lies with energy, which Python would import in its place",

@@ -14,8 +14,7 @@ mass, radius, *J = BALL.parameters
 BODY = Quaternion("q")
 DOWN = sp.Matrix([0, 0, -1])
 AXES = sp.eye(3).columnspace()
-SCHEME = METHODS["own"].scheme(BALL)
-MULTIPLIERS = [x for x in SCHEME.unknowns if x.name.startswith("lam")]
+MULTIPLIERS = [sp.Symbol(f"lam {i}") for i in range(3)]
 NORMS = [sum(x**2 for x in place[2:]) - 1 for place in (BEFORE, Q, AFTER)]
 STEPS = Quotient((*BEFORE, *Q, *AFTER, *MULTIPLIERS, *BALL.parameters, STEP), NORMS)
 
@@ -39,17 +38,17 @@ def path(down=DOWN):
     return principle.ALGEBRA.with_transposes(values)
 
 
-def of_step(expressions, start, end, momenta=SCHEME.state[N:]):
-    """Expressions of the method at a step between two places."""
-    velocity = [(b - a) / STEP for a, b in zip(start, end, strict=True)]
-    put = dict(zip((*SCHEME.state, *SCHEME.unknowns), (*start, *momenta, *velocity, *MULTIPLIERS), strict=True))
-    return [e.xreplace(put) for e in expressions]
-
-
 @pytest.fixture(scope="module")
 def residual():
     """What two steps of the method set to 0, with the momenta of the first."""
-    return of_step(SCHEME.residual, Q, AFTER, of_step(SCHEME.after[N:], BEFORE, Q))
+    scheme = METHODS["own"].scheme(BALL)
+
+    def of_step(expressions, start, end, momenta):
+        velocity = [(b - a) / STEP for a, b in zip(start, end, strict=True)]
+        put = dict(zip((*scheme.state, *scheme.unknowns), (*start, *momenta, *velocity, *MULTIPLIERS), strict=True))
+        return [e.xreplace(put) for e in expressions]
+
+    return of_step(scheme.residual, Q, AFTER, of_step(scheme.after[N:], BEFORE, Q, scheme.state[N:]))
 
 
 def test_displacements_are_all_that_the_constraints_allow():
