@@ -98,18 +98,13 @@ def test_no_drift_falls_to_none():
     assert done.stdout.endswith("with half the step: +0.0e+00\n")
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_what_a_file_prints_is_no_output(spring, jobs):
-    spring.write_text(f"{spring.read_text(encoding='utf-8')}print('of the file')\n", encoding="utf-8")
-    done = chapsym("lab", spring, "--method", "gni", "--steps", 2, "--no-flags", "--jobs", jobs, "--json")
-    assert len(json.loads(done.stdout)["cells"]) == 1
-    assert "of the file" in done.stderr
-
-
-def test_two_processes_say_the_same(spring):
+def test_two_processes_say_the_same_and_what_a_file_prints_is_no_output(spring):
     """But for the time."""
-    words = "lab", spring, "--method", "dla", "--method", "gni", "--steps", 20
-    one, two = (answer(*words, "--jobs", jobs) for jobs in (1, 2))
+    spring.write_text(f"{spring.read_text(encoding='utf-8')}print('of the file')\n", encoding="utf-8")
+    words = "lab", spring, "--method", "dla", "--method", "gni", "--steps", 20, "--json", "--jobs"
+    done = [chapsym(*words, jobs) for jobs in (1, 2)]
+    assert all(set(each.stderr.splitlines()) == {"of the file"} for each in done)
+    one, two = (json.loads(each.stdout) for each in done)
     for cell in (*one["cells"], *two["cells"]):
         cell["work"] = [error for _, error in cell["work"]]
         assert cell.pop("microseconds") > 0

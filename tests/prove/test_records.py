@@ -202,9 +202,10 @@ def test_an_interpreter_that_drops_docstrings_keeps_the_titles(monkeypatch):
     assert [claim.title for claim in claims] == titles
 
 
-def test_a_lost_process_leaves_its_claims_open(tmp_path):
-    env = changed(tmp_path, lost("os._exit(9)", "s-2"))
-    done = child("prove", *TWO, "--jobs", "2", env=env)
+def test_a_lost_process_leaves_its_claims_open(tmp_path, monkeypatch, forgotten):
+    for name, value in changed(tmp_path, lost("os._exit(9)", "s-2")).items():
+        monkeypatch.setenv(name, value)
+    done = chapsym("prove", *TWO, "--jobs", "2")
     assert done.returncode == 1
     assert "not judged: a process that ran proofs ended" in done.stdout
     assert "Traceback" not in done.stderr
