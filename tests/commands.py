@@ -7,6 +7,7 @@ import logging
 import math
 import os
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -20,24 +21,43 @@ TWO = "--register", str(Path(__file__).with_name("two_claims.py"))
 
 def chapsym(*arguments, cwd="."):
     """What the command writes and its exit status, as of a child that starts in the folder `cwd`."""
+    return _here(main, "chapsym", *arguments, cwd=cwd)
+
+
+def script(file, *arguments, cwd="."):
+    """The same of a Python script, which finds the modules beside it."""
+
+    def run():
+        with mock.patch.object(sys, "path", [str(Path(file).parent), *sys.path]):
+            runpy.run_path(file, run_name="__main__")
+
+    return _here(run, file, *arguments, cwd=cwd)
+
+
+def _here(run, *arguments, cwd):
     said, words = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2))
     handlers, level = list(logging.root.handlers), logging.getLogger("chapsym").level
     logging.root.handlers.clear()  # so that the command takes its own, as in a new process
     try:
         with (
-            mock.patch.object(sys, "argv", ["chapsym", *map(str, arguments)]),
+            mock.patch.object(sys, "argv", [*map(str, arguments)]),
             contextlib.redirect_stdout(said),
             contextlib.redirect_stderr(words),
             contextlib.chdir(cwd),
             mock.patch.object(sys, "unraisablehook", sys.unraisablehook),
             mock.patch.object(output, "PAUSE", math.inf),  # no line that a slow machine alone prints
         ):
-            main()
+            run()
+        status = 0
     except SystemExit as ended:
-        return subprocess.CompletedProcess(arguments, ended.code, _text(said), _text(words))
+        status = ended.code or 0
+        if isinstance(status, str):
+            words.write(f"{status}\n")
+            status = 1
     finally:
         logging.root.handlers[:] = handlers
         logging.getLogger("chapsym").setLevel(level)
+    return subprocess.CompletedProcess(arguments[1:], status, _text(said), _text(words))
 
 
 def _text(stream):

@@ -95,9 +95,13 @@ def workspace(folder):
 
 def run(line, folder):
     """What a command prints in the folder; of one that fails, its sentence."""
-    words = shlex.split(line)
-    if words[0] == "chapsym" and not {"|", ">", "&&"} & set(words):
-        done = commands.chapsym(*words[1:], cwd=folder)
+    first, _, rest = line.partition(" | ")
+    program, *words = shlex.split(first)
+    script = program == "python" and words[0].endswith(".py")
+    if (program == "chapsym" or script) and not {">", "&&"} & set(words):
+        done = (commands.script if script else commands.chapsym)(*words, cwd=folder)
+        if rest and done.returncode == 0:
+            done = subprocess.run(["bash", "-c", rest], input=done.stdout, capture_output=True, text=True, cwd=folder)
     else:
         python = shlex.quote(sys.executable)
         ours = f'chapsym() {{ {python} -m chapsym "$@"; }}\npython() {{ {python} "$@"; }}\n'
