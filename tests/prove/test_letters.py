@@ -14,8 +14,8 @@ from chapsym.prove import Equation, Proof, Verdict
 
 
 def test_renaming_every_letter_changes_no_verdict(request, records, lemmas):
-    """A sample of the claims, and all of them in `make thorough`; by other names each time that the seed is another."""
-    seed = 35
+    """One claim of numbers, one of words, and all in `make thorough`; by other names where the seed is another."""
+    seed = 52
     chosen = [*CLAIMS, *LEMMAS]
     if not request.config.getoption("--thorough"):
         chosen = random.Random(seed).sample(chosen, 2)
