@@ -2,9 +2,6 @@
 
 import json
 import shutil
-import subprocess
-import sys
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -15,6 +12,7 @@ from flint import Ordering, fmpq_mpoly_ctx
 
 from chapsym import checker, proofs
 from chapsym.checker import manifest
+from chapsym.checker.__main__ import main as judge_files
 from chapsym.checker.trees import names_in
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import WordAlgebra, matrix_symbols
@@ -298,27 +296,30 @@ def test_no_two_files_have_names_that_differ_in_case_alone():
     assert checker.file_name("5.3-at-most-4") == "5.3-at-most-4.json"
 
 
-def test_a_certificate_that_is_missing_is_seen(tmp_path):
+def test_a_certificate_that_is_missing_is_seen(tmp_path, monkeypatch, capsys):
     """Of a folder with a manifest, and of what a claim uses."""
     for id in ("4.9-f", "4.9-F"):
         shutil.copy(FOLDER / checker.file_name(id), tmp_path)
-    command = [sys.executable, "-S", "-I", str(Path(checker.__file__).parent)]
-    run = partial(subprocess.run, capture_output=True, text=True, check=False, cwd=tmp_path)
-    assert run([*command, "4.9-F_.json"]).returncode == 1  # 4.9-f uses others, which are not there
+    monkeypatch.chdir(tmp_path)
+    assert judge_files(["4.9-F_.json"]) == 1  # 4.9-f uses others, which are not there
     data = checker.read(FOLDER / "4.9-f.json")
     alone = data | {"uses": []}
     alone["statement"] = checker.statement(alone)
     alone["digest"] = checker.digest(alone)
     (tmp_path / "4.9-f.json").write_text(json.dumps(alone))
-    assert run([*command, "4.9-F_.json"]).returncode == 0  # found in its folder
+    assert judge_files(["4.9-F_.json"]) == 0  # found in its folder
     chapsym("certify", "manifest", tmp_path)
-    assert run([*command, "--manifest", "manifest.json"]).returncode == 0
+    assert judge_files(["--manifest", "manifest.json"]) == 0
+    capsys.readouterr()
     (tmp_path / "4.9-f.json").rename(tmp_path / "other.json")
-    assert "4.9-f.json is missing" in run([*command, "--manifest", "manifest.json"]).stderr
+    assert judge_files(["--manifest", "manifest.json"])
+    assert "4.9-f.json is missing" in capsys.readouterr().err
     (tmp_path / "other.json").unlink()
-    assert "rests on 4.9-f" in run([*command, "4.9-F_.json"]).stderr
+    assert judge_files(["4.9-F_.json"])
+    assert "rests on 4.9-f" in capsys.readouterr().err
     shutil.copy(FOLDER / "4.9-f.json", tmp_path)
-    assert "another certificate than the one" in run([*command, "--manifest", "manifest.json"]).stderr
+    assert judge_files(["--manifest", "manifest.json"])
+    assert "another certificate than the one" in capsys.readouterr().err
 
 
 def test_a_file_too_many_and_one_with_another_name_are_seen(tmp_path):

@@ -309,7 +309,7 @@ def test_the_file_of_a_ball_has_exactly_its_numbers(form):
 
 
 @pytest.fixture
-def refused_by_engine(tmp_path, monkeypatch, capsys):
+def refused_by_engine(tmp_path, monkeypatch, capfd):
     """What the program says with which an engine rolls a ball, of what it does not take."""
 
     def said(*args):
@@ -318,18 +318,18 @@ def refused_by_engine(tmp_path, monkeypatch, capsys):
         with pytest.raises(SystemExit) as ended:
             runpy.run_module("benchmarks.rolling.engines", run_name="__main__")
         assert not (tmp_path / "never.csv").exists()
-        return capsys.readouterr().err if ended.value.code == 2 else ended.value.code
+        return capfd.readouterr().err if ended.value.code == 2 else ended.value.code
 
     return said
 
 
-def test_one_command_takes_a_ball_from_its_file_to_the_verdict(tmp_path, refused_by_engine):
+def test_one_command_takes_a_ball_from_its_file_to_the_verdict(tmp_path, monkeypatch, capfd, refused_by_engine):
     """The engine is the control, a contact by penalty: it slips, and keeps the momentum."""
     words = "penalty", str(DATA / "robot.urdf"), "--time", "0.4", "-o", str(tmp_path / "robot.csv")
-    command = [sys.executable, "-m", "benchmarks.rolling.engines", *words]
-    done = subprocess.run(command, cwd=DATA.parents[2], capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode == 0, done.stderr
-    found = {line.split()[0]: line for line in done.stdout.splitlines()[1:]}
+    monkeypatch.setattr(sys, "argv", ["engines", *words])
+    with pytest.raises(SystemExit, match=r"^0$"):
+        runpy.run_module("benchmarks.rolling.engines", run_name="__main__")
+    found = {line.split()[0]: line for line in capfd.readouterr().out.splitlines()[1:]}
     assert "within 1 %" in found["momentum"]
     assert float(found["slip"].split()[3]) > 1e-3
     moved = tmp_path / "moved.urdf"
