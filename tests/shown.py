@@ -7,7 +7,7 @@ QUIET = [
     "--disable-sync",
 ]  # fmt: skip
 #: A page of text is painted without graphics; WebGL without a graphics card takes three times as long for one.
-PLAIN = [*QUIET, "--disable-gpu"]
+PLAIN = [*QUIET, "--disable-gpu", "--disable-3d-apis"]
 WEBGL = [
     *QUIET, "--disable-accelerated-2d-canvas", "--disable-gpu-rasterization",
     "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",

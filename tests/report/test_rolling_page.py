@@ -10,7 +10,7 @@ from budget import slow
 from contrast import contrast, low
 from matplotlib import image
 from results import BALL, EVEN, rolled
-from shown import DESK, PHONE, WEBGL, Shown
+from shown import DESK, PHONE
 from waiting import until
 
 from chapsym.dynamics import Status, kernels
@@ -55,11 +55,13 @@ def results(tmp_path_factory):
 
 @pytest.fixture
 def rolling(opened, results):
-    """Opens a page: one of the results, or a file."""
+    """Opens a page: one of the results, or a file; without WebGL, which takes most of the time, no ball is drawn."""
 
-    def open_page(page="one", size=SMALL, **options):
+    def open_page(page="one", size=SMALL, webgl=True, **options):
         path = results[page][0] if page in results else page
-        return Rolling(opened(path, size, webgl=True, **({"reduced_motion": "reduce"} | options)))
+        shown = opened(path, size, webgl, **({"reduced_motion": "reduce"} | options))
+        shown.said[:] = [text for text in shown.said if webgl or not text.startswith("THREE.WebGLRenderer: ")]
+        return Rolling(shown)
 
     return open_page
 
@@ -515,12 +517,12 @@ def test_the_ellipsoid_has_the_principal_axes(rolling, tmp_path):
 
 def test_frames_too_far_apart_are_shown_as_they_are(rolling, tmp_path):
     write_page(rolled(3900, every=60, ball=EVEN).drop_vars("omega"), tmp_path / "coarse.html")
-    page = rolling(tmp_path / "coarse.html")
+    page = rolling(tmp_path / "coarse.html", webgl=False)
     assert TOO_FAR in page.tab.locator(".notes").inner_text()
     assert page.ask("chapsym.quaternion(3.7)") == page.ask("chapsym.quaternion(3)")
     assert page.ask("chapsym.position(3.7)") != page.ask("chapsym.position(3)")
     write_page(rolled(3900, every=60, ball=EVEN), tmp_path / "words.html")
-    page = rolling(tmp_path / "words.html")
+    page = rolling(tmp_path / "words.html", webgl=False)
     assert page.tab.locator(".notes").count() == 0
     half = page.ask("[3, 3.5, 4].map(i => chapsym.quaternion(i))")
     first, second = (2 * np.arccos(min(1, abs(np.dot(a, b)))) for a, b in ((half[0], half[1]), (half[1], half[2])))
@@ -548,14 +550,11 @@ def test_lost_graphics_are_told_and_come_back(rolling):
     assert changed.mean() < 0.005
 
 
-def test_no_webgl_is_told(launch, results):
-    browser = launch(args=[*WEBGL, "--disable-3d-apis"])
-    page = Shown(browser, reduced_motion="reduce", viewport=SMALL)
-    page.load(results["one"][0])
+def test_no_webgl_is_told(rolling):
+    page = rolling(webgl=False)
     alert = page.tab.get_by_role("alert")
     assert "which this browser does not offer" in alert.inner_text()
     assert page.tab.locator("[data-read=position]").inner_text() == "0.000, 0.000 m"
-    browser.close()
 
 
 @pytest.mark.parametrize(
@@ -564,7 +563,7 @@ def test_no_webgl_is_told(launch, results):
 def test_numbers_of_all_sizes_are_readable(rolling, tmp_path, size, away, shown):
     data = rolled(20)
     write_page(data.assign(radius=size * data["radius"], contact=size * data["contact"] + away), tmp_path / "page.html")
-    page = rolling(tmp_path / "page.html")
+    page = rolling(tmp_path / "page.html", webgl=False)
     page.ask("chapsym.seek(20)")
     place = page.tab.locator("[data-read=position]")
     assert re.fullmatch(shown, place.inner_text()), place.inner_text()
