@@ -3,7 +3,7 @@
 import copy
 from functools import cache, partial
 
-from certificate_changes import resealed
+from certificate_changes import at, resealed
 
 #: A quotient ring with relations, with and without a counterexample; words, with matrices in the counterexample; both;
 #: a number of solutions.
@@ -17,12 +17,6 @@ def leaves(data, path=()):
             yield from leaves(part, (*path, name))
     else:
         yield path
-
-
-def inside(data, path):
-    for part in path:
-        data = data[part]
-    return data
 
 
 def mathematics(data):
@@ -53,7 +47,7 @@ def slip(data, rng):
     """A certificate with one thing changed in what is proved or in its proof; and where."""
     data = copy.deepcopy(data)
     *folder, name = path = rng.choice(list(mathematics(data)))
-    place = inside(data, folder)
+    place = at(data, folder)
     place[name] = slipped(place[name], rng)
     return resealed(data), path
 
@@ -74,7 +68,7 @@ def deep(depth):
 
 def put(*path, value):
     def change(data):
-        inside(data, path[:-1])[path[-1]] = value
+        at(data, path[:-1])[path[-1]] = value
 
     return change
 

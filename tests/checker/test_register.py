@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 from budget import slow
-from certificate_changes import refused
+from certificate_changes import at, refused
 from count_changes import counts
 from derivation_changes import derivations
 from register_arithmetic import arithmetic
-from register_changes import CHANGES, SAMPLES, changed, inside, leaves, slip, small
+from register_changes import CHANGES, SAMPLES, changed, leaves, slip, small
 
 import chapsym.proofs
 from chapsym import checker
@@ -111,7 +111,7 @@ def test_a_change_of_anything_is_seen_by_the_digest(samples):
     for data in samples.values():
         path = rng.choice(list(leaves(data)))
         other = copy.deepcopy(data)
-        inside(other, path[:-1])[path[-1]] = "another text"
+        at(other, path[:-1])[path[-1]] = "another text"
         with pytest.raises(Rejected):
             check(other)
 
