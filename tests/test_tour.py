@@ -1,6 +1,8 @@
 """The notebook of the docs runs, and its stored outputs are what it prints and draws."""
 
+import builtins
 import re
+import sys
 from pathlib import Path
 
 import nbformat
@@ -11,6 +13,7 @@ from IPython.utils.capture import capture_output
 from nbclient import NotebookClient
 from nbformat import NotebookNode
 from nbformat.v4 import new_output
+from traitlets.config import Config
 from waiting import GUARD
 
 TOUR = Path(__file__).parents[1] / "docs" / "tour.ipynb"
@@ -50,9 +53,12 @@ def tour():
     return nbformat.read(TOUR, as_version=4)
 
 
-def test_the_tour_runs_and_shows_what_is_stored(tour):
+def test_the_tour_runs_and_shows_what_is_stored(tour, monkeypatch):
     """In IPython itself: a kernel is only needed to write the outputs anew."""
-    shell = InteractiveShell()
+    monkeypatch.setitem(sys.modules, "__main__", sys.modules["__main__"])  # which IPython replaces by its own
+    for name in ("__IPYTHON__", "display"):
+        monkeypatch.setattr(builtins, name, None, raising=False)
+    shell = InteractiveShell(config=Config({"HistoryManager": {"enabled": False}}))
     for stored in tour.cells:
         if stored.cell_type == "code":
             results = []
