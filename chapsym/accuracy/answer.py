@@ -502,6 +502,8 @@ def _doubled(request: Request, limit: float, finer: float = 1.0, noisy: float = 
         seconds = steps * motion.stages(columns) * STAGE
         if noisy * _rounded(request, columns, steps) <= motion.ROUNDING * request.accuracy:
             found.append(Choice(method, steps, request.time / steps, seconds))
+    if not found and request.condition >= ENDLESS:
+        raise BadInput(motion.NO_INERTIA)
     if not found:
         raise BadInput(
             f"an accuracy of {request.accuracy:g} after {request.time:g} s cannot be had: it takes too many steps, "

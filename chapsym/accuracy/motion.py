@@ -491,6 +491,13 @@ def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
     found.reached[some], found.error[some] = problem.frames, few.survey[expected.STILL]
 
 
+#: The reason why a ball without inertia about an axis has no estimate of the error.
+NO_INERTIA = (
+    "the ball has a principal moment of 0, and no angular velocity where that axis is vertical, so that no accuracy "
+    "can be stated; give that moment a small value"
+)
+
+
 def _check(problem: Problem) -> np.ndarray | None:
     """Which balls rotate steadily, None if none do; raises BadInput for an accuracy beyond double precision."""
     worst, steady = problem.floor, None
@@ -498,10 +505,7 @@ def _check(problem: Problem) -> np.ndarray | None:
         steady = is_steady(problem.ball, problem.K, problem.gamma)
         worst = float(np.where(steady, problem.survey[expected.STILL], problem.survey[expected.FLOOR]).max())
     if worst > ROUNDING * problem.accuracy and (problem.survey[expected.CONDITION] >= expected.ENDLESS).any():
-        raise BadInput(
-            "the ball has a principal moment of 0, and no angular velocity where that axis is vertical, so that no "
-            "accuracy can be stated; give that moment a small value, or replace the motion by the map, map=True"
-        )
+        raise BadInput(f"{NO_INERTIA}, or replace the motion by the map, map=True")
     if not math.isfinite(worst):
         raise BadInput("the ball turns too far for float64: |ω|T, or its condition, is beyond 1.8e308")
     if worst > ROUNDING * problem.accuracy:

@@ -17,7 +17,7 @@ from chapsym.numbers.pairs import add
 
 from . import kernels, labelled, principal_axes
 from .attitudes import initial_attitude
-from .ball import Asked, Ball, Floats, batch, flag, in_shape, is_flag, numbers, unit_vertical
+from .ball import Asked, Ball, Floats, batch, flag, in_shape, is_flag, numbers, one_of, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
 from .n import so_n
@@ -510,7 +510,11 @@ class Trajectory:
         return self.derived("energy")["energy"]
 
     def derived(self, *names: str) -> dict[str, Floats]:
-        """`omega` and `energy`, or those named, NaN after a ball of a batch stopped; BadInput without a time step."""
+        """`omega` and `energy`, or those named, NaN after a ball of a batch stopped.
+
+        Raises BadInput without a time step, and for another name.
+        """
+        names = tuple(one_of(name, "a name", *DERIVED) for name in names or DERIVED)
         with self.precision.working():
             ball, missing = self.ball, self.index > self.taken[..., np.newaxis]
             K = np.where(missing[..., np.newaxis], 0.0, self.angular_momentum())
@@ -519,7 +523,7 @@ class Trajectory:
                 K, gamma = ball.to_principal(K, frames=True), ball.to_principal(gamma, frames=True)
             frames = K, gamma, ball.mass_tensor[..., np.newaxis, :], ball.D[..., np.newaxis]
             found: dict[str, Floats] = {}
-            for name in names or DERIVED:
+            for name in names:
                 values = np.array(DERIVED[name](*frames))
                 if name in VECTORS and ball.axes is not None:
                     values = ball.from_principal(values, frames=True)

@@ -133,8 +133,8 @@ class Result:
     def save(self, path: str | Path) -> None:
         """Writes the whole result to .zarr, .nc, .csv, .parquet or .npz; raises SceneError if that fails."""
         path = _path(path, PLACE)
-        if not self.dataset.sizes["ball"]:
-            raise SceneError("a result without balls has nothing to save")
+        if not (self.dataset.sizes["ball"] and self.dataset.sizes.get("frame", 1)):
+            raise SceneError("a result without balls or without frames has nothing to save")
         try:
             formats.check_parts(self.dataset)
         except ValueError as error:
