@@ -109,6 +109,12 @@ def false_sentence(data):
     data["verdict"] = "refuted"
 
 
+def false_in_words(data):
+    """A sentence says that what is printed is false, for which a part in words is left, and the verdict does not."""
+    data["sentences"].append({"role": "printed", "text": "false: x", "words": True})
+    data["printed"] += r",\ \text{x}"
+
+
 #: What is false, or no formula, and may not be printed with what is right.
 PARTS = [
     r"\sqrt{D^2} = -D", "D² = D", "D^2^2 = D^4", r"\frac12 = \frac1\Lambda", r"(D, D)^T + \gamma = 0",
@@ -153,6 +159,7 @@ FORGED = {
     "what is printed is right, with a word": ("2.5", lambda d: d.update(printed=d["corrected"] + r",\ \text{so}")),
     "what vanishes is the formula": ("2.2-F", vanishing),
     "false by a sentence": ("2.2-F", false_sentence),
+    "false by a sentence that a part in words says": ("2.2-F", false_in_words),
     "settled by nothing": ("2.2-F", lambda d: d.update(verdict="settled", uses=[], rests=[])),
     "a wedge with a matrix": ("2.12", with_part(r"\Gamma\wedge\omega^T = -(\Gamma\omega+\omega\Gamma)")),
     "a root of words": ("2.12", with_part(r"\sqrt{2} = 2")),

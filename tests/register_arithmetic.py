@@ -143,6 +143,7 @@ GLOSSARY = [
     ["A", "a matrix", [["a", "b", 1], [0, "c", 2], [1, 1, "s"]]],
     [r"f(\delta u)", "a function", "s"],
     ["a_{k+1}", "the next a", ["*", 10, "a"]],
+    [r"\dot{b}", "a rate", ["*", 20, "b"]],
 ]
 
 
@@ -157,6 +158,8 @@ READ = {
     "1 + 2a - bc": 1 + 4 - 15,
     r"\frac ab": Fraction(2, 3),
     r"\tfrac12 a": 1,
+    r"\frac\dot{b}2c": 150,
+    "(a) + " * 40 + "a": 82,
     r"\frac{a+b}2c": Fraction(25, 2),
     "-a^2": -4,
     "a^{-1}b^2": Fraction(9, 2),
@@ -202,6 +205,8 @@ UNREAD = [
     r"\oint a = b",
     r"\mathrm{det}a = b",
     r"x\wedge x = a",
+    f"{'(' * 31}a{')' * 31} = b",
+    r"\begin{vmatrix}a\end{pmatrix} = A",
     r"(a, b)^T\times x = x",
     r"a\times x = x",
     r"(a, x, b)^T = x",
@@ -234,7 +239,7 @@ TRACES = {
 NO_TRACES = [
     "A", "1", r"\mathrm{tr} A + 1", r"\mathrm{tr} A + A", r"\mathrm{tr} A\,\mathrm{tr} B", r"(\mathrm{tr} A)^2", "t^2",
     r"A\,\mathrm{tr} A", "tA", "tt", r"\mathrm{tr} t", r"\mathrm{tr}(A + \mathrm{tr} B)", r"\frac1{\mathrm{tr} A}",
-    r"\langle v, t\rangle", r"\langle v, w, w\rangle", r"\mathrm{tr} A (m + B)",
+    r"\langle v, t\rangle", r"\langle v, w, w\rangle", r"\mathrm{tr} A (m + B)", r"\mathrm{ab} A", r"\mathbf{tr} A",
 ]  # fmt: skip
 
 

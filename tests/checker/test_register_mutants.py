@@ -97,7 +97,8 @@ def battery(made_once, tmp_path_factory, thorough):
 
     def made():
         samples = {
-            id: checker.read(FOLDER / checker.file_name(id)) for id in (*SAMPLES, "2.1", "4.10", "remark-3", "5.11")
+            id: checker.read(FOLDER / checker.file_name(id))
+            for id in (*SAMPLES, "2.1", "2.15", "4.8", "4.10", "remark-3", "5.11")
         }
         rng = random.Random(7)
         wrong = [changed(samples[id], change) for id, change in CHANGES.values()]
@@ -147,5 +148,11 @@ def test_a_checker_with_one_thing_turned_round_is_seen(tmp_path, battery, thorou
         (tmp_path / "checker" / file).unlink()
 
 
-#: What is turned round without harm: all words that are left have the other sign.
-HARMLESS = {"settled[exponents, word] = settled.get((exponents, word), 0) + c"}
+#: What is turned round without harm, and why.
+HARMLESS = {
+    "settled[exponents, word] = settled.get((exponents, word), 0) + c": "all words that are left have the other sign",
+    'depth += {"{": 1, "}": -1}.get(token, 0)': "a depth is compared with 0 alone",
+    "raise NotRead(f\"{token or 'an end'} has no value\")": "it is a message",
+    "if a[0] or b[0]:": "of a vector and words one has no transpose, which is refused next",
+    "alone, left, read = alone + identities, left + len(unsaid), read + len(found)": "read is compared with 0 alone",
+}
