@@ -132,6 +132,10 @@ def derivations():
         "the value of an entry": made(
             [step("Z", "written", "A"), step("Q", "matrix", "Z", [pairs(A=TURN, B=BACK), ON_CIRCLE], 2),
              step("q", "entry", "Q", [1, 0], 2) | {"value": "s"}], "q", "s", 2, 1, [CIRCLE], cofactors=[[0]]),
+        "a matrix divided by a number": made(
+            [step("Z", "written", ["*", ["^", "m", -1], "A"]),
+             step("Q", "matrix", "Z", [pairs(A=TURN, B=BACK, m=2), ON_CIRCLE], 2), step("q", "entry", "Q", [1, 0], 2)],
+            "q", ["*", "1/2", "s"], 2, 1, [CIRCLE], cofactors=[[0]]),
         "a name in another": made([*product, step("V", "written", ["*", "B", "Z"])], "V", "X"),
         "a rate": made(turned, "V", rate),
         "a rate of a power": made(

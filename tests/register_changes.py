@@ -145,6 +145,7 @@ CHANGES = {
     "a counterexample off the relations": ("2.5-inverse", lambda d: d["counterexamples"][0].update(
         hypotheses=[], point=d["counterexamples"][0]["point"] | {"g1": 5})),
     "no claim": ("5.4", lambda d: d.update(claim="a\nb")),
+    "a sentence of no role": ("5.4", lambda d: d["sentences"].append({"role": "whim", "text": "x"})),
     "a long list": ("5.4", put("sentences", value=[{"role": "said", "text": "x"}] * 3000)),
     "a million letters": ("5.4", lambda d: d["sentences"].extend([{"role": "said", "text": "x" * 3000}] * 340)),
     "a point of many values": ("5.4", lambda d: d["points"].append({f"x{i}": 1 for i in range(2001)})),
