@@ -1,6 +1,7 @@
 """Files that are read whole, up to a limit, and written whole: into a temporary file, which is then renamed."""
 
 import os
+import stat
 import shlex
 import tempfile
 from collections.abc import Callable, Iterator
@@ -116,7 +117,7 @@ def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
             stream.flush()
             os.fsync(stream.fileno())  # else a power cut may leave the new name with an empty file
         os.umask(mask := os.umask(0))
-        os.chmod(temporary, 0o666 & ~mask)
+        os.chmod(temporary, stat.S_IMODE(path.stat().st_mode) if path.exists() else 0o666 & ~mask)
         os.replace(temporary, path)
     except OSError as error:
         raise CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None

@@ -322,9 +322,21 @@ def small():
     other = partial(said, *AWAY, cofactors=[[BY_TWO]])
     two = [contradicted(0, {"x": 3}), contradicted(1, {"x": 2}, [0])]
     found, lost = zeros()
+    holding = by_hand([said(*AWAY, cofactors=[[BY_TWO]], point=0)], [point], [ONE])
+    lemma = said(*AWAY, cofactors=[[BY_TWO]], point=0, role="lemma")
     return right | found, lost | {
         "it confirms what is refuted": by_hand(
             [said("x", 2, refuted=0), said("x", 5, refuted=1)], [], [FREE], two
+        ),
+        "a verdict that is not given": resealed(holding | {"verdict": "refuted"}),
+        "a correction that nothing decides": resealed(holding | {"verdict": "holds", "corrected": "x"}),
+        "it is what it supposes": resealed(by_hand([identity], [point], [ONE]) | {"verdict": "holds"}),
+        "it is what it supposes, with a lemma": resealed(
+            by_hand([identity, lemma], [point], [ONE]) | {"verdict": "holds"}),
+        "one expression on both sides, with a lemma": resealed(
+            by_hand([said("x", "x", point=0, cofactors=[[0]]), lemma], [point], [ONE]) | {"verdict": "holds"}),
+        "a refuted statement at a point": by_hand(
+            [identity, wrong | {"point": 0}], [point], [ONE, FREE], [contradicted(1, point, [0])]
         ),
         "it contradicts itself": by_hand(
             [identity, wrong], [point], [ONE, FREE], [contradicted(1, {"x": 3}, [0])]

@@ -153,6 +153,7 @@ HARMLESS = {
     "settled[exponents, word] = settled.get((exponents, word), 0) + c": "all words that are left have the other sign",
     'depth += {"{": 1, "}": -1}.get(token, 0)': "a depth is compared with 0 alone",
     "raise NotRead(f\"{token or 'an end'} has no value\")": "it is a message",
+    "less = len(self.terms) <= len(other.terms)": "a product is the same the other way round",
     "if a[0] or b[0]:": "of a vector and words one has no transpose, which is refused next",
     "alone, left, read = alone + identities, left + len(unsaid), read + len(found)": "read is compared with 0 alone",
 }
