@@ -1,8 +1,8 @@
 """Files that are read whole, up to a limit, and written whole: into a temporary file, which is then renamed."""
 
 import os
-import stat
 import shlex
+import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress

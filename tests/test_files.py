@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from chapsym.files import CannotWrite, check_destination, check_folder, made, pasted, write_whole
+from chapsym.files import CannotWrite, check_destination, check_folder, made, pasted, write_text, write_whole
 
 
 def test_a_file_is_replaced_and_nothing_is_left_beside_it(tmp_path):
@@ -80,6 +80,14 @@ def test_a_name_is_pasted_into_a_shell_as_it_is(tmp_path, monkeypatch, name):
     assert pasted(path).isprintable()
     assert subprocess.check_output(["bash", "-c", f"cat {pasted(path)}"], text=True) == "here"
     assert subprocess.check_output(["bash", "-c", f"printf %s {pasted(name)}"], text=True) == name  # a word is no file
+
+
+def test_a_file_that_is_replaced_keeps_its_permissions(tmp_path):
+    path = tmp_path / "mine"
+    path.write_text("old", encoding="utf-8")
+    path.chmod(0o600)
+    write_text(path, "new")
+    assert (path.read_text(encoding="utf-8"), stat.S_IMODE(path.stat().st_mode)) == ("new", 0o600)
 
 
 def test_a_link_stays_a_link(tmp_path):

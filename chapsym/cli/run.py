@@ -14,18 +14,12 @@ from .options import Json, argument, takes, writes
 from .output import Data, apart, check_printed, counted, fail, note, print_json, put
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from xarray import Dataset
 
-    from chapsym.dynamics.flow.start import Start
     from chapsym.dynamics.labelled import Arrays
-    from chapsym.scene import Scene
     from chapsym.scene.plan.plan import Plan
     from chapsym.scene.running.sweep import Outcome
 
-#: The default time limit of a proof in seconds.
-LIMIT = 600.0
 OUT = "A .zarr, which can be resumed; or .nc, .parquet, .csv, .npz; - prints a CSV."
 
 
@@ -54,7 +48,7 @@ def run(
     from chapsym.scene import load
     from chapsym.scene.plan.plan import plan_of
     from chapsym.scene.result import formats
-    from chapsym.scene.result.proved import with_proof
+    from chapsym.scene.result.proved import LIMIT, motion_to_prove, with_proof
     from chapsym.scene.running import sweep
     from chapsym.scene.running.store import check_same, save
 
@@ -68,7 +62,9 @@ def run(
             fail(f"{destination}: --scheduler needs a .zarr, of which each worker writes its part", 2)
         check_printed(destination, as_json)
         formats.check_destination(destination)
-        exact = _exact(wanted, destination) if wanted.run.proved and not wanted.maps else None
+        exact = motion_to_prove(wanted)
+        if exact is not None and destination.suffix == ".zarr":
+            fail(f"{destination}: run.proved writes its bounds into one file: take .npz, .nc, .csv or .parquet", 2)
         plan = plan_of(wanted)
         formats.check_size(plan, destination)
         if destination.is_file() and not fresh:
@@ -102,17 +98,6 @@ def run(
         _tell(plan, shown, outcome, data, answers, as_json)
     if stopped is not None:
         fail(f"the frames after {len(motion.times)} are not proved: {stopped}", 1)
-
-
-def _exact(scene: "Scene", destination: Path) -> "tuple[Start, tuple[Fraction, ...]]":
-    """The start and the times of a scene with a proof; refused before it is run."""
-    from chapsym.scene.members.exactly import exact_motion
-    from chapsym.scene.result.proved import check_outputs
-
-    if destination.suffix == ".zarr":
-        fail(f"{destination}: run.proved writes its bounds into one file: take .npz, .nc, .csv or .parquet", 2)
-    check_outputs(scene.run.names())
-    return exact_motion(scene)
 
 
 def _named(scene: Path, name: str | None) -> Path:

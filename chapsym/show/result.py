@@ -23,6 +23,7 @@ from chapsym.scene.result import formats
 from chapsym.scene.result.dataset import grid
 from chapsym.scene.result.digests import write_digests
 from chapsym.scene.result.interpolation import interpolated
+from chapsym.scene.result.proved import LIMIT, motion_to_prove, with_proof
 from chapsym.scene.result.summary import sentence
 from chapsym.scene.running import store
 from chapsym.scene.running.sweep import run_in_memory
@@ -222,7 +223,7 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
     Raises
     ------
     SceneError
-        For a scene that cannot be run as written.
+        For a scene that cannot be run as written, or whose motion is not proved to its end, with `proved`.
     BadInput
         As the plan of the scene does.
 
@@ -240,8 +241,14 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
         scene = checked(dict(scene))
     elif not is_a(scene, Scene):
         scene = load(_path(scene, "scene must be a .toml file or a dictionary"))
+    exact = motion_to_prove(scene)
     plan = plan_of(scene)
-    return Result(run_in_memory(plan) if progress is None else run_in_memory(plan, progress))
+    data = run_in_memory(plan) if progress is None else run_in_memory(plan, progress)
+    if exact is not None:
+        data, motion = with_proof(data, exact, float(scene.run.limit or LIMIT), lambda sentence: None)
+        if motion.stopped is not None:
+            raise SceneError(f"the frames after {len(motion.times)} are not proved: {motion.stopped}")
+    return Result(data)
 
 
 def open_result(path: str | Path) -> Result:

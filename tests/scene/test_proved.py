@@ -1,6 +1,7 @@
 """The error of a run, proved by the motion with certified digits."""
 
 import json
+import tomllib
 
 import numpy as np
 import pytest
@@ -75,12 +76,19 @@ def test_the_command_has_the_bound_and_takes_no_other_scene(scene, tmp_path):
     assert "gone.npz" in refused("certify", "motion", scene, "--against", tmp_path / "gone.npz")
 
 
-def test_a_scene_may_ask_for_the_proof_and_its_bounds_are_in_the_result(scene, both, tmp_path):
+def test_a_scene_may_ask_for_the_proof_and_its_bounds_are_in_the_result(scene, both, tmp_path, monkeypatch):
     path, result = tmp_path / "proved.toml", tmp_path / "proved.nc"
     path.write_text(f"{BALL}{RUN}proved = true\n")
     words = answer("run", path, "-o", result)["proved"]
     assert words == json.loads(formats.load(result).attrs["proved"])
     assert words == pytest.approx(proved_errors(*both))  # of 18 digits and of 20
+    assert json.loads(library.run_scene(path).dataset.attrs["proved"]) == words
+    monkeypatch.setattr("chapsym.show.result.LIMIT", 1e-9)
+    with pytest.raises(SceneError, match="the frames after 1 are not proved: "):
+        library.run_scene(path)
+    whole = tomllib.loads(path.read_text())
+    with pytest.raises(SceneError, match="need the numbers as a scene file writes them"):
+        library.run_scene(whole)
 
 
 @pytest.mark.parametrize(("more", "output", "said"), [

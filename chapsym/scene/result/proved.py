@@ -4,7 +4,7 @@ import json
 import math
 from collections.abc import Callable, Iterable
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -18,12 +18,19 @@ from ..read.errors import SceneError
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from chapsym.dynamics.flow.start import Start
     from chapsym.dynamics.labelled import Arrays
+
+    from ..read.scene import Scene
+
+Data = TypeVar("Data", "Dataset", "Arrays")
 
 #: The compared quantities, with their units.
 UNITS = {"gamma": "", "omega": " rad/s", "attitude": "", "contact": " m"}
 #: The quantities with bounds in a result of the map, with their units.
 UNITS_OF_MAP = {"momentum": " kg m²", "gamma": "", "attitude": "", "contact": " m"}
+#: Seconds within which a motion is proved, without a limit in the scene.
+LIMIT = 600.0
 #: The bits of the differences, so that they have no rounding of float64.
 BITS = 128
 #: The digits of the motion for a comparison with a result in float64, and the name of the bounds in its attributes.
@@ -36,9 +43,19 @@ def check_outputs(outputs: Iterable[str]) -> None:
         raise SceneError(f"the result has none of {', '.join(UNITS)}: ask for one in its outputs")
 
 
+def motion_to_prove(scene: "Scene") -> "tuple[Start, tuple[Fraction, ...]] | None":
+    """The start and the times of a scene that wants its motion proved, else None; raises SceneError if it cannot be."""
+    if not scene.run.proved or scene.maps:
+        return None
+    from ..members.exactly import exact_motion
+
+    check_outputs(scene.run.names())
+    return exact_motion(scene)
+
+
 def with_proof(
-    data: "Arrays", exact: tuple[Any, tuple[Fraction, ...]], limit: float, progress: Callable[[str], None]
-) -> tuple["Arrays", CertifiedMotion]:
+    data: Data, exact: tuple[Any, tuple[Fraction, ...]], limit: float, progress: Callable[[str], None]
+) -> tuple[Data, CertifiedMotion]:
     """A result with its bounds (`proved_errors`, null where there is none) in the attribute "proved", and the motion.
 
     exact: the start and the times of its scene (`members.exactly.exact_motion`).  limit: seconds.
