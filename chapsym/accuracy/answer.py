@@ -431,7 +431,7 @@ def accurate(
 
 def answered(request: Request, limit: float, progress: Callable[[str], None]) -> Accurate:
     """`accurate` of a request."""
-    started, say = clock.thread_time(), until(limit, progress)
+    started, say = clock.process_time(), until(limit, progress)
     problem, choice = _foreseen(request, limit)
     say(choice.sentence())
     attempts: list[Attempt] = []
@@ -440,13 +440,13 @@ def answered(request: Request, limit: float, progress: Callable[[str], None]) ->
         if found.status[0] == Status.TAKEN:
             steps = max(int(found.total[0]), 1)
             made = Choice(Method(NAMED["double"], int(found.order[0])), steps, request.time / steps, choice.seconds)
-            attempts.append(Attempt(made, float(found.error[0]), clock.thread_time() - started))
+            attempts.append(Attempt(made, float(found.error[0]), clock.process_time() - started))
             if found.error[0] <= request.accuracy:
                 run = _as_trajectory(request, found)
-                return Accurate(run, request, attempts, clock.thread_time() - started)
+                return Accurate(run, request, attempts, clock.process_time() - started)
         say(_doubled(request, limit).sentence())
     run = _by_double_double(request, limit, attempts, say)
-    return Accurate(run, request, attempts, clock.thread_time() - started)
+    return Accurate(run, request, attempts, clock.process_time() - started)
 
 
 def foreseen(request: Request, limit: float) -> Choice:
@@ -531,7 +531,7 @@ def _by_double_double(
     # In most motions an error of the start grows as one of the rate does.
     usual = MOVED * math.sqrt(request.condition) * (1 + request.angle) * request.unit
     for _ in range(motion.ATTEMPTS):
-        started = clock.thread_time()
+        started = clock.process_time()
         choice = _doubled(request, limit, finer, noisy)
         method, every = choice.method, checks(request, choice.method)
         fewer, apart, longer = Method(method.precision, method.order - 2 * LESS), math.inf, 2.0
@@ -552,7 +552,7 @@ def _by_double_double(
                 raise BadInput(f"the ball cannot be followed: {error}") from None
         rounded = _rounded(request, method.columns, choice.steps)
         estimate = LIKELY * apart + noisy * rounded  # with the largest observed noise: one sample may be small
-        attempts.append(Attempt(choice, estimate, clock.thread_time() - started))
+        attempts.append(Attempt(choice, estimate, clock.process_time() - started))
         if estimate <= request.accuracy:
             return some_frames(run, slice(None, None, every // request.frames))
         if before / 2 < apart < math.inf:  # amplified roundings: fewer columns have less

@@ -552,9 +552,10 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         found.put(some, again)
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
     if len(poor):
-        part = problem.of(poor)
-        of_start, further = np.nan_to_num(started[poor]), partial(report, others=len(problem) - len(poor))
-        other = doubled(part, found.of(poor), of_start, further)
+        part, others = problem.of(poor), len(problem) - len(poor)
+        of_start = np.nan_to_num(started[poor])
+        # These are followed anew, which takes longer than all before: each run of them is counted from its beginning.
+        other = doubled(part, found.of(poor), of_start, lambda done: progress(others + done))
         # Other estimates are of runs that are far from the motion; of two balls that stopped the later one is kept.
         later = (found.status[poor] != Status.TAKEN) & (other.reached >= found.reached[poor])
         better = (other.error <= accuracy) | later
@@ -657,15 +658,18 @@ def doubled(
     found, left, before = problem.nothing(), np.arange(n), np.full(n, np.inf)
     columns, steps = cheapest(problem, long.total)
 
-    def still(taken: int) -> None:
-        """Counts verified balls; the callback may end the run."""
-        progress(n - len(left))
+    def still(taken: float, of: int) -> None:
+        """Counts verified balls, and of those in a run the part of its steps; the callback may end the run."""
+        progress(n - len(left) + of * min(taken, MOSTLY))
 
     for _ in range(ATTEMPTS):
         off, ways = np.empty(n), np.stack([columns, steps], axis=1)
         for way in np.unique(ways[left], axis=0):
             some = left[(ways[left] == way).all(axis=1)]
-            run, off[some] = _verified(problem.of(some), long.of(some), started[some], int(way[0]), int(way[1]), still)
+            counted = partial(still, of=len(some))
+            run, off[some] = _verified(
+                problem.of(some), long.of(some), started[some], int(way[0]), int(way[1]), counted
+            )
             found.put(some, run)
         rounded = (off > before / 2) & (off <= SMALL * problem.units)
         left, before = left[(~(found.error <= problem.accuracy) & ~rounded)[left]], off
@@ -694,7 +698,7 @@ def shared(steps: Floats) -> np.ndarray:
 
 
 def _verified(
-    problem: Problem, long: Motion, started: Floats, columns: int, steps: int, progress: Callable[[int], None]
+    problem: Problem, long: Motion, started: Floats, columns: int, steps: int, progress: Callable[[float], None]
 ) -> tuple[Motion, Floats]:
     """The motion by at least `steps` steps, and its distance from another; infinite for a ball that stops.
 
@@ -702,13 +706,17 @@ def _verified(
     or too far, the other has fewer columns, and starts a few roundings away, to show the sensitivity of a
     ball to its start.
     """
-    run = _long_steps(problem, columns, steps, progress)
+    work = steps * len(problem)
+    run = _long_steps(
+        problem, columns, steps, lambda taken: progress(taken / work / 2)
+    )  # half of it, if another follows
     off = apart(problem, long, run).max(axis=-1)
     near = long.error <= np.minimum(NEAR * problem.accuracy, SMALL * problem.units)
     rest = np.flatnonzero(~(near & (_stated(problem, started, off) + run.error <= problem.accuracy)))
     if len(rest):
         few, aside = problem.of(rest), ROUNDED * 2.0**-53 * lengths(problem.K[rest])[:, np.newaxis] * ASIDE
-        other = _long_steps(replace(few, K=few.K + aside), columns - LESS, steps, progress)
+        moved_aside, again = replace(few, K=few.K + aside), steps * len(rest)
+        other = _long_steps(moved_aside, columns - LESS, steps, lambda taken: progress((1 + taken / again) / 2))
         off[rest] = apart(few, run.of(rest), other).max(axis=-1)
         off[rest[other.status != Status.TAKEN]] = np.nan
     off = np.where(np.isnan(off), np.inf, off)

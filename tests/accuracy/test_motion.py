@@ -195,6 +195,16 @@ def test_in_double_double_a_ball_has_the_same_bits_alone_and_in_a_batch(frames):
         assert (alone.contact == together.contact[i]).all()
 
 
+def test_the_part_of_the_steps_in_double_double_is_progress():
+    asked, seen = problem([14.0, -6.0, 3.0], 40, 50.0, 1e-9), []
+    long = replace(moved(asked), error=np.full(1, np.inf))
+    doubled(asked, long, np.zeros(1), seen.append)
+    first = [part for part in seen if part <= 0.5]
+    assert len({*first}) > 10
+    assert first == sorted(first)
+    assert 0.5 < max(part for part in seen if part < 1) < 1 == seen[-1]
+
+
 def test_one_run_in_double_double_confirms_a_motion_of_a_larger_estimate(monkeypatch):
     """Its roundings might be larger than the accuracy; they are not."""
     rng, counts = np.random.default_rng(3), []
