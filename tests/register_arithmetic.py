@@ -20,6 +20,7 @@ def arithmetic(package):
     words(import_module(f"{package}.words"), import_module(f"{package}.polynomial").Work, refused)
     reading(import_module(f"{package}.formulas"))
     roots(import_module(f"{package}.roots"), import_module(f"{package}.polynomial").Work)
+    trees(import_module(f"{package}.trees"), refused)
 
 
 def bounded(p):
@@ -103,6 +104,15 @@ def roots(module, Work):
     assert work.left == 1000 - (3 + 2) * (1 + 1025 // 512) ** 2
     assert module._roots([-6, 11, -6, 1], work) == (3, 3, 3, 3)
     assert module._roots([1, 0, 2, 0, 1], work) == (0, 2, 0, 4)
+
+
+def trees(module, refused):
+    for tree in (["+", "x"], ["-", "x", "x"], ["+", *["x"] * module.MOST_OPERANDS]):
+        assert refused(module.check_tree, tree, "it")
+    large = 1 << module.MOST_BITS_OF_VALUES
+    assert module.bounded(large - 1) == large - 1
+    assert refused(module.bounded, large)
+    assert refused(module.bounded, Fraction(1, large))
 
 
 def words(module, Work, refused):

@@ -331,6 +331,8 @@ def small():
         "a verdict that is not given": resealed(holding | {"verdict": "refuted"}),
         "a correction that nothing decides": resealed(holding | {"verdict": "holds", "corrected": "x"}),
         "it is what it supposes": resealed(by_hand([identity], [point], [ONE]) | {"verdict": "holds"}),
+        "it is what it supposes, with a comparison": resealed(
+            by_hand([identity], [point], [ONE], comparisons=[compared(["<", 0, "x"])]) | {"verdict": "holds"}),
         "it is what it supposes, with a lemma": resealed(
             by_hand([identity, lemma], [point], [ONE]) | {"verdict": "holds"}),
         "one expression on both sides, with a lemma": resealed(

@@ -7,6 +7,7 @@ from fractions import Fraction
 import numpy as np
 import odd_calls
 import pytest
+import xarray
 
 import chapsym
 from chapsym import BadInput
@@ -253,6 +254,9 @@ REFUSED = {
     "dataset of a result, with ball and": lambda: chapsym.Result(run().to_xarray().gamma),
     "path must name a file": lambda: chapsym.Result(run().to_xarray()).save(None),
     "a result without balls or without frames": lambda: chapsym.Result(run().to_xarray().isel(frame=[])).save("x.csv"),
+    "along its last dimension: transpose axis, ball": lambda: chapsym.roll(
+        BALL, xarray.DataArray(np.eye(3), dims=("axis", "ball")), 0.1, 1
+    ),
     "a name must be .omega. or .energy., not": lambda: run().derived("speed"),
     "principal moment of 0, and no": lambda: chapsym.accurate(chapsym.Ball((0, 0, 1), 3), K, (0.6, 0, 0.8), 1, 1e-8),
     "a result without balls or": lambda: saved(chapsym.trajectory(BALL, np.zeros((0, 3)), UP, 2)),

@@ -35,6 +35,8 @@ Text = TypeVar("Text", bound=str)
 FLOAT64 = np.dtype(np.float64)
 #: The maximal number of axes that NumPy broadcasts.
 MOST_AXES = 32
+#: The dimensions of components in results, which are the last of what is given.
+COMPONENTS = frozenset({"axis", "quaternion", "plane"})
 #: Below this float64 loses digits.
 SMALLEST = np.finfo(np.float64).tiny
 #: Up to this float64 has all integers.
@@ -56,6 +58,10 @@ def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
     if trailing == 3 and is_vector(value):
         return value.copy()
     array = _as_float(value, name)
+    dims: Any = value.dims if hasattr(type(value), "dims") else ()  # type: ignore[union-attr]
+    if trailing and is_a(dims, tuple) and not COMPONENTS.isdisjoint(dims[:-1]):
+        shown = ", ".join(map(str, dims))
+        raise BadInput(f"{name} must have its components along its last dimension: transpose {shown}")
     if trailing is not None and (array.ndim == 0 or array.shape[-1] != trailing):
         raise BadInput(f"{name} must have {trailing} components along its last axis, not the shape {array.shape}")
     if not np.isfinite(array).all():
