@@ -115,6 +115,23 @@ def false_in_words(data):
     data["printed"] += r",\ \text{x}"
 
 
+def one_expression(data):
+    """A statement with one expression on both sides, and an equation that is not it."""
+    one = next(one for one in data["statements"] if one["role"] == "printed" and "cofactors" in one)
+    twice, none = [["*", 2, "D"]], [[0] * len(one["cofactors"][0])]
+    data["statements"].append(one | {"left": twice, "right": twice, "cofactors": none})
+    with_part("D + D = 2D")(data)
+
+
+def left_to_words(data):
+    """What is printed is an identity, and all that is decided of it is left to words, of which there are none."""
+    for part in ("statements", "comparisons", "counts", "zeros", "rests", "sentences"):
+        for one in data[part]:
+            if one["role"] == "printed":
+                one["words"] = True
+    data["printed"] = "D + D = 2D"
+
+
 #: What is false, or no formula, and may not be printed with what is right.
 PARTS = [
     r"\sqrt{D^2} = -D", "D² = D", "D^2^2 = D^4", r"\frac12 = \frac1\Lambda", r"(D, D)^T + \gamma = 0",
@@ -159,6 +176,8 @@ FORGED = {
     "what is printed is right, with a word": ("2.5", lambda d: d.update(printed=d["corrected"] + r",\ \text{so}")),
     "what vanishes is the formula": ("2.2-F", vanishing),
     "false by a sentence": ("2.2-F", false_sentence),
+    "one expression on both sides": ("2.2-F", one_expression),
+    "all is left to words": ("2.5", left_to_words),
     "false by a sentence that a part in words says": ("2.2-F", false_in_words),
     "settled by nothing": ("2.2-F", lambda d: d.update(verdict="settled", uses=[], rests=[])),
     "a wedge with a matrix": ("2.12", with_part(r"\Gamma\wedge\omega^T = -(\Gamma\omega+\omega\Gamma)")),

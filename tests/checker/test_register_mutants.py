@@ -155,5 +155,6 @@ HARMLESS = {
     "raise NotRead(f\"{token or 'an end'} has no value\")": "it is a message",
     "less = len(self.terms) <= len(other.terms)": "a product is the same the other way round",
     "if a[0] or b[0]:": "of a vector and words one has no transpose, which is refused next",
+    'does = "says in words" if unsaid < unsaid | wrong else "does not say"': "it is a message",
     "alone, left, read = alone + identities, left + len(unsaid), read + len(found)": "read is compared with 0 alone",
 }
