@@ -48,9 +48,7 @@ def check_destination(path: Path) -> None:
 
 def check_folder(folder: Path) -> None:
     """Raises CannotWrite, before anything is computed, if `folder` is not, and cannot become, one that takes files."""
-    there = folder
-    while not os.path.exists(there):
-        there = there.parent
+    there = next(place for place in (folder, *folder.parents) if os.path.exists(place))  # the last is . or /
     if not there.is_dir():
         clause = "it is a file" if there == folder else f"{there} is a file"
         raise CannotWrite(f"{folder} cannot be a folder of results: {clause}")

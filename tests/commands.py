@@ -25,7 +25,7 @@ def chapsym(*arguments, cwd="."):
 
 
 def script(file, *arguments, cwd="."):
-    """The same of a Python script, which finds the modules beside it."""
+    """The same of a Python script, which finds the modules in its folder."""
 
     def run():
         with mock.patch.object(sys, "path", [str(Path(file).parent), *sys.path]):

@@ -666,10 +666,8 @@ def doubled(
         off, ways = np.empty(n), np.stack([columns, steps], axis=1)
         for way in np.unique(ways[left], axis=0):
             some = left[(ways[left] == way).all(axis=1)]
-            counted = partial(still, of=len(some))
-            run, off[some] = _verified(
-                problem.of(some), long.of(some), started[some], int(way[0]), int(way[1]), counted
-            )
+            few = problem.of(some), long.of(some), started[some]
+            run, off[some] = _verified(*few, int(way[0]), int(way[1]), partial(still, of=len(some)))
             found.put(some, run)
         rounded = (off > before / 2) & (off <= SMALL * problem.units)
         left, before = left[(~(found.error <= problem.accuracy) & ~rounded)[left]], off
@@ -706,10 +704,8 @@ def _verified(
     or too far, the other has fewer columns, and starts a few roundings away, to show the sensitivity of a
     ball to its start.
     """
-    work = steps * len(problem)
-    run = _long_steps(
-        problem, columns, steps, lambda taken: progress(taken / work / 2)
-    )  # half of it, if another follows
+    work = 2 * steps * len(problem)  # if another follows
+    run = _long_steps(problem, columns, steps, lambda taken: progress(taken / work))
     off = apart(problem, long, run).max(axis=-1)
     near = long.error <= np.minimum(NEAR * problem.accuracy, SMALL * problem.units)
     rest = np.flatnonzero(~(near & (_stated(problem, started, off) + run.error <= problem.accuracy)))

@@ -119,7 +119,7 @@ def test_the_command_writes_the_theorems_of_a_claim(tmp_path):
     assert made == kept
 
 
-@pytest.mark.parametrize("name", ["Makefile", "claim_mine.v"])
+@pytest.mark.parametrize("name", ["Makefile", "claim_mine.v", "Points.v", "summary.txt"])
 def test_a_folder_with_other_files_is_refused_and_keeps_them(tmp_path, name):
     write([certificate("5.11")], tmp_path)
     (tmp_path / "mine.v").write_text("mine", encoding="utf-8")

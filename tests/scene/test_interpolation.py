@@ -30,7 +30,7 @@ def test_a_result_between_its_frames_is_its_trajectory_between_them():
     assert "energy" not in found
     assert float(found["D"].values[0]) == results.UNEVEN.D
     assert chapsym.Result(dataset).at(0.5).sizes["frame"] == 1
-    errors = {"accuracy": 1e-12, "accuracy_of": "contact", "discretisation": "{}"}
+    errors = {"accuracy": 1e-12, "accuracy_of": "contact", "discretisation": "{}", "proved": "{}"}
     found = chapsym.interpolated(dataset.assign(error=("ball", [1e-13])).assign_attrs(errors), TIMES)
     assert "error" not in found
     assert not errors.keys() & found.attrs.keys()

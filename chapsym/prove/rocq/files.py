@@ -53,7 +53,9 @@ def _put(path: Path, text: str) -> None:
 def former(folder: Path) -> list[Path]:
     """The files of claims that `write` has written to a folder; raises FileExistsError for others of their names."""
     files = sorted(folder.glob("claim_*.v"))
-    for path, head in ((folder / "Makefile", MAKEFILE[:20]), *((path, "(* Claim ") for path in files)):
+    heads = dict.fromkeys(files, "(* Claim ") | {folder / "Makefile": MAKEFILE[:20], folder / "summary.txt": "claims  "}
+    heads |= {folder / f"{library}.v": (HERE / f"{library}.v").read_text("utf-8")[:20] for library in LIBRARIES}
+    for path, head in heads.items():
         if path.exists() and not path.read_bytes().startswith(head.encode()):
             raise FileExistsError(EEXIST, "it is not from chapsym prove --rocq: name another folder", str(path))
     return files

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 #: The interpolated variables; energy, integrals and phase are known only at the frames.
 FOLLOWED = ("momentum", "gamma", "omega", "attitude", "contact")
 #: The attributes on errors at the frames.
-ERRORS = ("accuracy", "accuracy_of", "discretisation")
+ERRORS = ("accuracy", "accuracy_of", "discretisation", "proved")
 #: The variables of K, which are not multiplied by the step.
 RATE = "kg m2 s-1"
 
